@@ -1,0 +1,2 @@
+//! Building, serving and testing: everything that is not the product.
+fn main() {}
