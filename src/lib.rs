@@ -1,1 +1,1 @@
-//! Centrode.
+//! Centrode: see and tune contact detection on a continuum robot.
