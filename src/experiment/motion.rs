@@ -1,0 +1,16 @@
+//! The commanded motion: a fifth-order rest-to-rest polynomial of θL.
+
+use super::scenario::Motion;
+
+/// θL (rad) and θ̇L (rad/s) commanded at `time` (s).
+#[must_use]
+pub fn command(motion: &Motion, time: f64) -> (f64, f64) {
+    let duration = motion.finish - motion.start;
+    let u = ((time - motion.start) / duration).clamp(0.0, 1.0);
+    let v = 1.0 - u;
+    let travel = motion.theta_end - motion.theta_start;
+    let progress = u * u * u * (10.0 + u * (6.0 * u - 15.0));
+    let speed = 30.0 * (u * v) * (u * v) / duration;
+    let theta_l = if u == 1.0 { motion.theta_end } else { motion.theta_start + travel * progress };
+    (theta_l, travel * speed)
+}

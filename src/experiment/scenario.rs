@@ -1,0 +1,366 @@
+//! What a person sets: one struct, written as TOML, in SI units and radians.
+//!
+//! Every default is the paper's, or is marked *illustrative* where the paper gives none.
+
+use crate::model::Segment;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// A whole experiment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Scenario {
+    /// Rate of the control loop, in which readings are taken, filtered and judged, Hz.
+    pub loop_rate: f64,
+    /// Seed of all noise (illustrative).
+    pub seed: u64,
+    /// The segment.
+    pub robot: Robot,
+    /// The commanded motion.
+    pub motion: Motion,
+    /// What the backbone meets.
+    pub contact: Contact,
+    /// The tracker on the end disk.
+    pub tracker: Tracker,
+    /// The load cells on the secondary backbones.
+    pub load_cells: LoadCells,
+    /// The moving average over the tracker's readings.
+    pub filter: Filter,
+    /// Thresholds and arming.
+    pub detection: Thresholds,
+}
+
+impl Default for Scenario {
+    fn default() -> Self {
+        Self {
+            loop_rate: 1000.0,
+            seed: 1,
+            robot: Robot::default(),
+            motion: Motion::default(),
+            contact: Contact::default(),
+            tracker: Tracker::default(),
+            load_cells: LoadCells::default(),
+            filter: Filter::default(),
+            detection: Thresholds::default(),
+        }
+    }
+}
+
+/// The segment.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Robot {
+    /// Length L of the primary backbone, m.
+    pub length: f64,
+    /// Radius r of the pitch circle, m (illustrative).
+    pub pitch_radius: f64,
+    /// Arc lengths of the spacer disks, from the base up, m.
+    pub disks: Vec<f64>,
+    /// The primary backbone (dimensions illustrative).
+    pub primary: Tube,
+    /// Each of the three secondary backbones (dimensions illustrative).
+    pub secondary: Tube,
+}
+
+impl Default for Robot {
+    fn default() -> Self {
+        Self {
+            length: 0.030,
+            pitch_radius: 0.003,
+            disks: vec![0.0075, 0.015, 0.0225],
+            primary: Tube::default(),
+            secondary: Tube::default(),
+        }
+    }
+}
+
+impl Robot {
+    /// The model's segment.
+    #[must_use]
+    pub fn segment(&self) -> Segment {
+        Segment {
+            length: self.length,
+            pitch_radius: self.pitch_radius,
+            ep_ip: self.primary.bending_stiffness(),
+            es_is: self.secondary.bending_stiffness(),
+        }
+    }
+}
+
+/// A superelastic tube.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tube {
+    /// Outer diameter, m (illustrative).
+    pub outer_diameter: f64,
+    /// Inner diameter, m; 0 is a wire (illustrative).
+    pub inner_diameter: f64,
+    /// Young's modulus, Pa (illustrative: austenitic NiTi).
+    pub youngs_modulus: f64,
+}
+
+impl Default for Tube {
+    fn default() -> Self {
+        Self { outer_diameter: 0.889e-3, inner_diameter: 0.762e-3, youngs_modulus: 58.0e9 }
+    }
+}
+
+impl Tube {
+    /// E·I, N·m².
+    #[must_use]
+    pub fn bending_stiffness(&self) -> f64 {
+        let fourth = |d: f64| (d * d) * (d * d);
+        self.youngs_modulus * PI / 64.0 * (fourth(self.outer_diameter) - fourth(self.inner_diameter))
+    }
+}
+
+/// A fifth-order rest-to-rest motion of θL in a fixed bending plane.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Motion {
+    /// θL before the motion, rad; π/2 is straight.
+    pub theta_start: f64,
+    /// θL after it, rad.
+    pub theta_end: f64,
+    /// Bending-plane angle δ, rad (illustrative).
+    pub delta: f64,
+    /// When the motion starts, s.
+    pub start: f64,
+    /// When it is finished, s.
+    pub finish: f64,
+    /// When the run ends, s (illustrative).
+    pub end: f64,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self { theta_start: FRAC_PI_2, theta_end: 0.0, delta: 0.0, start: 3.0, finish: 8.0, end: 10.0 }
+    }
+}
+
+/// A fixed beam that meets the backbone; holds while the bend is beyond its value at contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "ContactKeys", into = "ContactKeys")]
+pub struct Contact {
+    /// Where along the backbone (the paper tests disks 1, 2, 3; default disk 2).
+    pub place: Place,
+    /// When, or at which bend (default 5.80 s, illustrative: it gives Table II's detection time for disk 2).
+    pub start: Start,
+}
+
+impl Default for Contact {
+    fn default() -> Self {
+        Self { place: Place::Disk(2), start: Start::Time(5.80) }
+    }
+}
+
+/// Where the beam meets the backbone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// No beam.
+    Nowhere,
+    /// At a spacer disk, counted from 1 at the base.
+    Disk(u64),
+    /// At an arc length, m.
+    ArcLength(f64),
+}
+
+/// When the beam meets the backbone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Start {
+    /// At the bend commanded at this time, s.
+    Time(f64),
+    /// At this bend φ, rad.
+    Bend(f64),
+}
+
+/// [`Contact`] as the file's keys.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ContactKeys {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    disk: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    arc_length: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    bend: Option<f64>,
+}
+
+impl TryFrom<ContactKeys> for Contact {
+    type Error = &'static str;
+
+    fn try_from(keys: ContactKeys) -> Result<Self, Self::Error> {
+        let default = Self::default();
+        let place = match (keys.disk, keys.arc_length) {
+            (Some(_), Some(_)) => return Err("holds both disk and arc_length; only one of them is allowed"),
+            (Some(0), None) => Place::Nowhere,
+            (Some(disk), None) => Place::Disk(disk),
+            (None, Some(s)) => Place::ArcLength(s),
+            (None, None) => default.place,
+        };
+        let start = match (keys.time, keys.bend) {
+            (Some(_), Some(_)) => return Err("holds both time and bend; only one of them is allowed"),
+            (Some(time), None) => Start::Time(time),
+            (None, Some(bend)) => Start::Bend(bend),
+            (None, None) => default.start,
+        };
+        Ok(Self { place, start })
+    }
+}
+
+impl From<Contact> for ContactKeys {
+    fn from(contact: Contact) -> Self {
+        let (disk, arc_length) = match contact.place {
+            Place::Nowhere => (Some(0), None),
+            Place::Disk(disk) => (Some(disk), None),
+            Place::ArcLength(s) => (None, Some(s)),
+        };
+        let (time, bend) = match contact.start {
+            Start::Time(time) => (Some(time), None),
+            Start::Bend(bend) => (None, Some(bend)),
+        };
+        Self { disk, arc_length, time, bend }
+    }
+}
+
+/// The tracker: position and Euler angles of a marker on the end disk, refreshed slower than the loop reads.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Tracker {
+    /// Refresh rate, Hz; the loop holds the last reading.
+    pub rate: f64,
+    /// Standard deviation of white noise on each coordinate of a reading, m (default none: illustrative).
+    pub position_noise: f64,
+    /// Standard deviation of white noise on each angle of a reading, rad (default none: illustrative).
+    pub orientation_noise: f64,
+    /// Coordinates are rounded to multiples of this, m; 0 does not round (default 0: illustrative).
+    pub position_resolution: f64,
+    /// Angles are rounded to multiples of this, rad; 0 does not round (default 0: illustrative).
+    pub orientation_resolution: f64,
+    /// Age of a reading when it arrives, s (illustrative).
+    pub latency: f64,
+    /// How the marker is mounted: R̃_g (illustrative).
+    pub mounting: Mounting,
+}
+
+impl Default for Tracker {
+    fn default() -> Self {
+        Self {
+            rate: 100.0,
+            position_noise: 0.0,
+            orientation_noise: 0.0,
+            position_resolution: 0.0,
+            orientation_resolution: 0.0,
+            latency: 0.0,
+            mounting: Mounting::BendingAxis,
+        }
+    }
+}
+
+/// The constant rotation R̃_g between the marker and the end disk's frame {G}.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Mounting {
+    /// The marker's x axis lies along the bending axis: bending is pure roll, far from the Euler singularity.
+    BendingAxis,
+    /// The marker's frame is {G}: azimuth–elevation–roll is singular at 90° of bend toward x.
+    Aligned,
+}
+
+/// The load cells on the three secondary backbones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LoadCells {
+    /// Relative error ε_τ, common to the three cells: τ_lc = τ/(1 − ε_τ). The paper estimates 10 %.
+    pub epsilon_tau: f64,
+    /// Standard deviation of white noise on each reading, N (default none: illustrative).
+    pub noise: f64,
+    /// Force added to all three backbones alike, N (default none: illustrative).
+    pub preload: f64,
+}
+
+impl Default for LoadCells {
+    fn default() -> Self {
+        Self { epsilon_tau: 0.10, noise: 0.0, preload: 0.0 }
+    }
+}
+
+/// The moving average over the tracker's readings.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Filter {
+    /// N, in loop samples; 1 does not filter.
+    pub length: u64,
+    /// What is averaged.
+    pub averaging: Averaging,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { length: 500, averaging: Averaging::Readings }
+    }
+}
+
+/// How orientations are averaged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Averaging {
+    /// The three Euler angles, one by one, as in the paper.
+    Readings,
+    /// The rotations themselves, on SO(3) (the normalised mean quaternion): no singular orientation.
+    Rotations,
+}
+
+/// Thresholds, and when they are looked at.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Thresholds {
+    /// ξ1 of the joint force deviation Θ, N·m, or `"off"` (illustrative: above ε_c of the default robot).
+    pub xi1: Threshold,
+    /// ξ2 of the fixed centrode deviation ‖c_m − c_s‖, m, or `"off"`.
+    pub xi2: Threshold,
+    /// No alarm is raised before this time, s.
+    pub armed_from: f64,
+    /// The centrode deviation is judged only while ‖ω_s‖ exceeds this, rad/s (illustrative).
+    pub min_speed: f64,
+}
+
+impl Default for Thresholds {
+    fn default() -> Self {
+        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.02 }
+    }
+}
+
+/// A threshold that can be switched off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(untagged, expecting = "expected a number or \"off\"")]
+pub enum Threshold {
+    /// Alarm above this value.
+    On(f64),
+    /// Never alarm.
+    Off(Off),
+}
+
+/// The word `"off"`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Off {
+    /// Switched off.
+    Off,
+}
+
+impl Threshold {
+    /// A threshold that never alarms.
+    pub const OFF: Self = Self::Off(Off::Off);
+
+    /// The value, when switched on.
+    #[must_use]
+    pub fn value(self) -> Option<f64> {
+        match self {
+            Self::On(value) => Some(value),
+            Self::Off(_) => None,
+        }
+    }
+}
