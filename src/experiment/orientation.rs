@@ -75,7 +75,12 @@ mod tests {
 
     #[test]
     fn euler_angles_and_back() {
-        for angles in [[0.0, 0.0, 0.0], [0.3, -0.7, 2.0], [-3.0, 1.5, -2.9], [1.0, -FRAC_PI_2 + 1e-6, 0.2]] {
+        for angles in [
+            [0.0, 0.0, 0.0],
+            [0.3, -0.7, 2.0],
+            [-3.0, 1.5, -2.9],
+            [1.0, -FRAC_PI_2 + 1e-6, 0.2],
+        ] {
             let back = to_euler(&from_euler(&angles));
             for (a, b) in angles.iter().zip(back) {
                 assert!((a - b).abs() < 1e-9, "{angles:?} {back:?}");

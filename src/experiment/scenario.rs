@@ -101,7 +101,11 @@ pub struct Tube {
 
 impl Default for Tube {
     fn default() -> Self {
-        Self { outer_diameter: 0.889e-3, inner_diameter: 0.762e-3, youngs_modulus: 58.0e9 }
+        Self {
+            outer_diameter: 0.889e-3,
+            inner_diameter: 0.762e-3,
+            youngs_modulus: 58.0e9,
+        }
     }
 }
 
@@ -110,7 +114,8 @@ impl Tube {
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
         let fourth = |d: f64| (d * d) * (d * d);
-        self.youngs_modulus * PI / 64.0 * (fourth(self.outer_diameter) - fourth(self.inner_diameter))
+        self.youngs_modulus * PI / 64.0
+            * (fourth(self.outer_diameter) - fourth(self.inner_diameter))
     }
 }
 
@@ -134,7 +139,14 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self { theta_start: FRAC_PI_2, theta_end: 0.0, delta: 0.0, start: 3.0, finish: 8.0, end: 10.0 }
+        Self {
+            theta_start: FRAC_PI_2,
+            theta_end: 0.0,
+            delta: 0.0,
+            start: 3.0,
+            finish: 8.0,
+            end: 10.0,
+        }
     }
 }
 
@@ -150,7 +162,10 @@ pub struct Contact {
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { place: Place::Disk(2), start: Start::Time(5.80) }
+        Self {
+            place: Place::Disk(2),
+            start: Start::Time(5.80),
+        }
     }
 }
 
@@ -194,14 +209,18 @@ impl TryFrom<ContactKeys> for Contact {
     fn try_from(keys: ContactKeys) -> Result<Self, Self::Error> {
         let default = Self::default();
         let place = match (keys.disk, keys.arc_length) {
-            (Some(_), Some(_)) => return Err("holds both disk and arc_length; only one of them is allowed"),
+            (Some(_), Some(_)) => {
+                return Err("holds both disk and arc_length; only one of them is allowed");
+            }
             (Some(0), None) => Place::Nowhere,
             (Some(disk), None) => Place::Disk(disk),
             (None, Some(s)) => Place::ArcLength(s),
             (None, None) => default.place,
         };
         let start = match (keys.time, keys.bend) {
-            (Some(_), Some(_)) => return Err("holds both time and bend; only one of them is allowed"),
+            (Some(_), Some(_)) => {
+                return Err("holds both time and bend; only one of them is allowed");
+            }
             (Some(time), None) => Start::Time(time),
             (None, Some(bend)) => Start::Bend(bend),
             (None, None) => default.start,
@@ -221,7 +240,12 @@ impl From<Contact> for ContactKeys {
             Start::Time(time) => (Some(time), None),
             Start::Bend(bend) => (None, Some(bend)),
         };
-        Self { disk, arc_length, time, bend }
+        Self {
+            disk,
+            arc_length,
+            time,
+            bend,
+        }
     }
 }
 
@@ -233,7 +257,7 @@ pub struct Tracker {
     pub rate: f64,
     /// Standard deviation of white noise on each coordinate of a reading, m (default none: illustrative).
     pub position_noise: f64,
-    /// Standard deviation of white noise on each angle of a reading, rad (default none: illustrative).
+    /// Standard deviation of the white noise that turns the marker about each axis of {B}, rad (default none: illustrative).
     pub orientation_noise: f64,
     /// Coordinates are rounded to multiples of this, m; 0 does not round (default 0: illustrative).
     pub position_resolution: f64,
@@ -283,7 +307,11 @@ pub struct LoadCells {
 
 impl Default for LoadCells {
     fn default() -> Self {
-        Self { epsilon_tau: 0.10, noise: 0.0, preload: 0.0 }
+        Self {
+            epsilon_tau: 0.10,
+            noise: 0.0,
+            preload: 0.0,
+        }
     }
 }
 
@@ -299,7 +327,10 @@ pub struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Self { length: 500, averaging: Averaging::Readings }
+        Self {
+            length: 500,
+            averaging: Averaging::Readings,
+        }
     }
 }
 
@@ -329,7 +360,12 @@ pub struct Thresholds {
 
 impl Default for Thresholds {
     fn default() -> Self {
-        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.02 }
+        Self {
+            xi1: Threshold::On(0.03),
+            xi2: Threshold::On(0.007),
+            armed_from: 5.0,
+            min_speed: 0.02,
+        }
     }
 }
 

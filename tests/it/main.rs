@@ -1,1 +1,8 @@
-//! Integration tests.
+//! Integration tests: one binary, one module per subject.
+
+mod experiment;
+mod golden;
+mod misprints;
+mod properties;
+mod reproducible;
+mod support;
