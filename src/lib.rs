@@ -20,5 +20,7 @@
 //!
 //! Where the printed equations are wrong, `docs/MODEL.md` says how, and `tests/it/misprints.rs` shows it.
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod experiment;
 pub mod model;

@@ -17,19 +17,12 @@ impl SimulatedCells {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let scenario = plan.scenario();
-        Self {
-            settings: scenario.load_cells.clone(),
-            noise: Normal::new(scenario.seed, Source::LoadCells),
-        }
+        Self { settings: scenario.load_cells.clone(), noise: Normal::new(scenario.seed, Source::LoadCells) }
     }
 
     /// What the cells read (N) when the true joint forces are `tau` (N).
     pub fn read(&mut self, tau: &Vec3) -> Vec3 {
         let reading = tau / (1.0 - self.settings.epsilon_tau);
-        if self.settings.noise > 0.0 {
-            reading.map(|x| x + self.settings.noise * self.noise.draw())
-        } else {
-            reading
-        }
+        if self.settings.noise > 0.0 { reading.map(|x| x + self.settings.noise * self.noise.draw()) } else { reading }
     }
 }

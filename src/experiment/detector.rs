@@ -87,46 +87,23 @@ pub struct Detector {
 }
 
 /// The motion is in θL alone, and a centrode does not depend on speed: this direction gives c_m at rest, too.
-const BENDING: Rate = Rate {
-    theta_l: -1.0,
-    delta: 0.0,
-};
+const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
 
 impl Detector {
     /// A detector for a segment; `epsilon_tau` is the load cells' assumed relative error.
     #[must_use]
     pub fn new(segment: Segment, thresholds: Thresholds, epsilon_tau: f64) -> Self {
-        Self {
-            segment,
-            thresholds,
-            epsilon_tau,
-            above: [false; 2],
-            detection: None,
-        }
+        Self { segment, thresholds, epsilon_tau, above: [false; 2], detection: None }
     }
 
     /// Judges one instant; `crossed` is called for each threshold crossed upward.
-    pub fn judge(
-        &mut self,
-        measurement: &Measurement,
-        mut crossed: impl FnMut(Crossing),
-    ) -> Judgement {
+    pub fn judge(&mut self, measurement: &Measurement, mut crossed: impl FnMut(Crossing)) -> Judgement {
         let judgement = self.compare(measurement);
         let armed = measurement.time >= self.thresholds.armed_from;
         let moving = judgement.speed > self.thresholds.min_speed;
         let values = [
-            (
-                Method::Fcd,
-                judgement.deviation,
-                self.thresholds.xi2.value(),
-                moving,
-            ),
-            (
-                Method::Jfd,
-                judgement.residual,
-                self.thresholds.xi1.value(),
-                true,
-            ),
+            (Method::Fcd, judgement.deviation, self.thresholds.xi2.value(), moving),
+            (Method::Jfd, judgement.residual, self.thresholds.xi1.value(), true),
         ];
         for (which, (method, value, threshold, judged)) in values.into_iter().enumerate() {
             // What is not defined or not judged leaves the alarm as it was.
@@ -136,18 +113,8 @@ impl Detector {
             let above = armed && value > threshold;
             let was = std::mem::replace(&mut self.above[which], above);
             if above && !was {
-                let Measurement {
-                    time,
-                    configuration,
-                    ..
-                } = *measurement;
-                crossed(Crossing {
-                    method,
-                    time,
-                    theta_l: configuration.theta_l(),
-                    value,
-                    threshold,
-                });
+                let Measurement { time, configuration, .. } = *measurement;
+                crossed(Crossing { method, time, theta_l: configuration.theta_l(), value, threshold });
                 if method == Method::Fcd && self.detection.is_none() {
                     self.detection = self.locate(time, configuration, &judgement.sensor_centrode);
                 }
@@ -163,20 +130,10 @@ impl Detector {
     }
 
     fn compare(&self, measurement: &Measurement) -> Judgement {
-        let Measurement {
-            configuration,
-            motion,
-            tau_lc,
-            ..
-        } = measurement;
-        let (pose, jacobian) = self
-            .segment
-            .arc(*configuration)
-            .pose_and_jacobian(self.segment.length);
+        let Measurement { configuration, motion, tau_lc, .. } = measurement;
+        let (pose, jacobian) = self.segment.arc(*configuration).pose_and_jacobian(self.segment.length);
         let undefined = Vec3::repeat(f64::NAN);
-        let model_centrode = jacobian
-            .centrode(&pose.position, BENDING)
-            .unwrap_or(undefined);
+        let model_centrode = jacobian.centrode(&pose.position, BENDING).unwrap_or(undefined);
         let sensor_centrode = centrode(&motion.position, &motion.twist).unwrap_or(undefined);
         let segment = &self.segment;
         Judgement {
@@ -186,29 +143,12 @@ impl Detector {
             speed: motion.twist.angular.norm(),
             residual: segment.residual(configuration, tau_lc),
             common_bound: segment.common_error_bound(configuration, tau_lc, self.epsilon_tau),
-            independent_bound: segment.independent_error_bound(
-                configuration,
-                tau_lc,
-                self.epsilon_tau,
-            ),
+            independent_bound: segment.independent_error_bound(configuration, tau_lc, self.epsilon_tau),
         }
     }
 
-    fn locate(
-        &self,
-        time: f64,
-        configuration: Configuration,
-        sensor_centrode: &Vec3,
-    ) -> Option<Detection> {
-        let Location {
-            arc_length,
-            distance,
-        } = locate(self.segment.length, configuration, BENDING, sensor_centrode)?;
-        Some(Detection {
-            time,
-            theta_l: configuration.theta_l(),
-            location: arc_length,
-            distance,
-        })
+    fn locate(&self, time: f64, configuration: Configuration, sensor_centrode: &Vec3) -> Option<Detection> {
+        let Location { arc_length, distance } = locate(self.segment.length, configuration, BENDING, sensor_centrode)?;
+        Some(Detection { time, theta_l: configuration.theta_l(), location: arc_length, distance })
     }
 }

@@ -26,14 +26,7 @@ impl<const D: usize> MovingAverage<D> {
     #[must_use]
     pub fn new(length: usize) -> Self {
         let length = length.max(1);
-        Self {
-            length,
-            ring: Vec::new(),
-            oldest: 0,
-            sum: [0.0; D],
-            error: [0.0; D],
-            mean: [0.0; D],
-        }
+        Self { length, ring: Vec::new(), oldest: 0, sum: [0.0; D], error: [0.0; D], mean: [0.0; D] }
     }
 
     /// Takes one vector in and returns the mean and its change since the one before.
@@ -93,15 +86,8 @@ pub struct PoseFilter {
 
 #[derive(Debug, Clone)]
 enum Orientation {
-    Readings {
-        average: MovingAverage<3>,
-        before: Option<Mat3>,
-    },
-    Rotations {
-        average: MovingAverage<4>,
-        last: Option<([f64; 3], Quaternion)>,
-        before: Quaternion,
-    },
+    Readings { average: MovingAverage<3>, before: Option<Mat3> },
+    Rotations { average: MovingAverage<4>, last: Option<([f64; 3], Quaternion)>, before: Quaternion },
 }
 
 impl PoseFilter {
@@ -110,21 +96,12 @@ impl PoseFilter {
     pub fn new(settings: &Filter, rate: f64) -> Self {
         let length = settings.length as usize;
         let orientation = match settings.averaging {
-            Averaging::Readings => Orientation::Readings {
-                average: MovingAverage::new(length),
-                before: None,
-            },
-            Averaging::Rotations => Orientation::Rotations {
-                average: MovingAverage::new(length),
-                last: None,
-                before: [0.0; 4],
-            },
+            Averaging::Readings => Orientation::Readings { average: MovingAverage::new(length), before: None },
+            Averaging::Rotations => {
+                Orientation::Rotations { average: MovingAverage::new(length), last: None, before: [0.0; 4] }
+            }
         };
-        Self {
-            position: MovingAverage::new(length),
-            orientation,
-            rate,
-        }
+        Self { position: MovingAverage::new(length), orientation, rate }
     }
 
     /// Takes one reading in; the motion is the backward difference of the averages.
@@ -133,10 +110,7 @@ impl PoseFilter {
         let turn = self.orientation.push(&reading.angles);
         Motion {
             position: position.into(),
-            twist: Twist {
-                linear: Vec3::from(step) * self.rate,
-                angular: turn * self.rate,
-            },
+            twist: Twist { linear: Vec3::from(step) * self.rate, angular: turn * self.rate },
         }
     }
 }
@@ -154,15 +128,9 @@ impl Orientation {
                 }
                 let rotation = from_euler(&mean);
                 *before = Some(rotation);
-                previous.map_or_else(Vec3::zeros, |previous| {
-                    vee(&(rotation * previous.transpose()))
-                })
+                previous.map_or_else(Vec3::zeros, |previous| vee(&(rotation * previous.transpose())))
             }
-            Self::Rotations {
-                average,
-                last,
-                before,
-            } => {
+            Self::Rotations { average, last, before } => {
                 let quaternion = match *last {
                     Some((same, quaternion)) if same == *angles => quaternion,
                     _ => {
@@ -177,11 +145,7 @@ impl Orientation {
                 let (mean, change) = average.push(&quaternion);
                 let previous = std::mem::replace(before, mean);
                 let size = sqrt(dot(&previous, &previous) * dot(&mean, &mean));
-                if size > 0.0 {
-                    vector_of_ratio(&change, &previous) * (2.0 / size)
-                } else {
-                    Vec3::zeros()
-                }
+                if size > 0.0 { vector_of_ratio(&change, &previous) * (2.0 / size) } else { Vec3::zeros() }
             }
         }
     }
@@ -197,10 +161,7 @@ mod tests {
 
     /// Readings as multiples of 2⁻⁴⁰ below 1: sums of them are exact in i64.
     fn reading(k: u64) -> i64 {
-        (k.wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407)
-            >> 24) as i64
-            - (1 << 39)
+        (k.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407) >> 24) as i64 - (1 << 39)
     }
 
     #[test]
@@ -208,11 +169,7 @@ mod tests {
         let unit = 1.0 / (1i64 << 40) as f64;
         // A large step that comes and goes is what spoils a plain running sum.
         let step = |k: u64| {
-            if (1_000_000..1_000_100).contains(&k) {
-                1_000_000_000
-            } else {
-                1
-            }
+            if (1_000_000..1_000_100).contains(&k) { 1_000_000_000 } else { 1 }
         };
         let length = 500;
         let mut average = MovingAverage::<1>::new(length);
@@ -226,10 +183,7 @@ mod tests {
             let mean = average.push(&[reading(k) as f64 * step(k) as f64 * unit]).0[0];
             if k > 3_500_000 {
                 let reference = exact as f64 * unit / length as f64;
-                assert!(
-                    (mean - reference).abs() <= 2.0 * f64::EPSILON * reference.abs(),
-                    "{k}: {mean} {reference}"
-                );
+                assert!((mean - reference).abs() <= 2.0 * f64::EPSILON * reference.abs(), "{k}: {mean} {reference}");
             }
         }
     }

@@ -27,10 +27,7 @@ impl Normal {
     pub fn new(seed: u64, source: Source) -> Self {
         let mut generator = ChaCha8Rng::seed_from_u64(seed);
         generator.set_stream(source as u64);
-        Self {
-            generator,
-            spare: None,
-        }
+        Self { generator, spare: None }
     }
 
     /// The next deviate (Marsaglia's polar method).
@@ -63,20 +60,10 @@ mod tests {
     fn deviates_have_the_moments_of_a_normal_law() {
         let mut normal = Normal::new(7, Source::Tracker);
         let draws: Vec<f64> = (0..200_000).map(|_| normal.draw()).collect();
-        let moment =
-            |power: i32| draws.iter().map(|x| x.powi(power)).sum::<f64>() / draws.len() as f64;
+        let moment = |power: i32| draws.iter().map(|x| x.powi(power)).sum::<f64>() / draws.len() as f64;
         // Standard errors: 1, √2, √15 and √96 over √200000.
-        for (power, expected, error) in [
-            (1, 0.0, 0.0023),
-            (2, 1.0, 0.0032),
-            (3, 0.0, 0.0087),
-            (4, 3.0, 0.022),
-        ] {
-            assert!(
-                (moment(power) - expected).abs() < 4.0 * error,
-                "moment {power}: {}",
-                moment(power)
-            );
+        for (power, expected, error) in [(1, 0.0, 0.0023), (2, 1.0, 0.0032), (3, 0.0, 0.0087), (4, 3.0, 0.022)] {
+            assert!((moment(power) - expected).abs() < 4.0 * error, "moment {power}: {}", moment(power));
         }
     }
 

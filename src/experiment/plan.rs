@@ -141,37 +141,19 @@ impl Plan {
 
 /// Refuses `key = value` unless it is one of `allowed`.
 fn demand(ok: bool, key: &str, value: f64, allowed: &str) -> Result<(), ScenarioError> {
-    if ok {
-        Ok(())
-    } else {
-        Err(refusal(key, text::number(value), allowed))
-    }
+    if ok { Ok(()) } else { Err(refusal(key, text::number(value), allowed)) }
 }
 
 fn refusal(key: &str, value: String, allowed: impl Into<String>) -> ScenarioError {
-    ScenarioError::Value {
-        key: key.into(),
-        value,
-        allowed: allowed.into(),
-    }
+    ScenarioError::Value { key: key.into(), value, allowed: allowed.into() }
 }
 
 fn positive(key: &str, value: f64, most: f64, unit: &str) -> Result<(), ScenarioError> {
-    demand(
-        value > 0.0 && value <= most,
-        key,
-        value,
-        &format!("a number above 0 and at most {most} {unit}"),
-    )
+    demand(value > 0.0 && value <= most, key, value, &format!("a number above 0 and at most {most} {unit}"))
 }
 
 fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), ScenarioError> {
-    demand(
-        value >= 0.0 && value.is_finite(),
-        key,
-        value,
-        &format!("a finite number, 0 {unit} or more"),
-    )
+    demand(value >= 0.0 && value.is_finite(), key, value, &format!("a finite number, 0 {unit} or more"))
 }
 
 fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
@@ -180,32 +162,17 @@ fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
     positive("robot.pitch_radius", robot.pitch_radius, 100.0, "m")?;
     let mut below = 0.0;
     for (i, &disk) in robot.disks.iter().enumerate() {
-        let allowed = format!(
-            "an arc length above the disk before it ({below} m) and at most robot.length = {} m",
-            robot.length
-        );
-        demand(
-            disk > below && disk <= robot.length,
-            &format!("robot.disks[{i}]"),
-            disk,
-            &allowed,
-        )?;
+        let allowed =
+            format!("an arc length above the disk before it ({below} m) and at most robot.length = {} m", robot.length);
+        demand(disk > below && disk <= robot.length, &format!("robot.disks[{i}]"), disk, &allowed)?;
         below = disk;
     }
     for (name, tube) in [("primary", &robot.primary), ("secondary", &robot.secondary)] {
         let key = |field: &str| format!("robot.{name}.{field}");
         positive(&key("outer_diameter"), tube.outer_diameter, 1.0, "m")?;
         let inside = tube.inner_diameter >= 0.0 && tube.inner_diameter < tube.outer_diameter;
-        let allowed = format!(
-            "from 0 to below the outer diameter, {} m",
-            tube.outer_diameter
-        );
-        demand(
-            inside,
-            &key("inner_diameter"),
-            tube.inner_diameter,
-            &allowed,
-        )?;
+        let allowed = format!("from 0 to below the outer diameter, {} m", tube.outer_diameter);
+        demand(inside, &key("inner_diameter"), tube.inner_diameter, &allowed)?;
         positive(&key("youngs_modulus"), tube.youngs_modulus, 1e13, "Pa")?;
     }
     Ok(())
@@ -215,18 +182,8 @@ fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
 ///
 /// # Errors
 /// Names `key` and its `value`.
-pub fn check_bend(
-    segment: &Segment,
-    key: &str,
-    value: f64,
-    bend: f64,
-) -> Result<(), ScenarioError> {
-    demand(
-        bend.abs() < 2.0 * PI,
-        key,
-        value,
-        "a finite angle, less than one turn (2π rad) from straight",
-    )?;
+pub fn check_bend(segment: &Segment, key: &str, value: f64, bend: f64) -> Result<(), ScenarioError> {
+    demand(bend.abs() < 2.0 * PI, key, value, "a finite angle, less than one turn (2π rad) from straight")?;
     let allowed = format!(
         "a bend below length/pitch_radius = {} rad, or a secondary backbone would have no length left",
         text::number(segment.length / segment.pitch_radius)
@@ -237,80 +194,30 @@ pub fn check_bend(
 fn check_motion(scenario: &Scenario) -> Result<(), ScenarioError> {
     let motion = &scenario.motion;
     let segment = scenario.robot.segment();
-    check_bend(
-        &segment,
-        "motion.theta_start",
-        motion.theta_start,
-        bend_from_theta_l(motion.theta_start),
-    )?;
-    check_bend(
-        &segment,
-        "motion.theta_end",
-        motion.theta_end,
-        bend_from_theta_l(motion.theta_end),
-    )?;
-    demand(
-        motion.delta.is_finite(),
-        "motion.delta",
-        motion.delta,
-        "a finite angle in rad",
-    )?;
+    check_bend(&segment, "motion.theta_start", motion.theta_start, bend_from_theta_l(motion.theta_start))?;
+    check_bend(&segment, "motion.theta_end", motion.theta_end, bend_from_theta_l(motion.theta_end))?;
+    demand(motion.delta.is_finite(), "motion.delta", motion.delta, "a finite angle in rad")?;
     not_negative("motion.start", motion.start, "s")?;
     let later = motion.finish > motion.start && motion.finish.is_finite();
-    demand(
-        later,
-        "motion.finish",
-        motion.finish,
-        &format!("a time after motion.start = {} s", motion.start),
-    )?;
-    demand(
-        motion.end > 0.0 && motion.end.is_finite(),
-        "motion.end",
-        motion.end,
-        "a finite time above 0 s",
-    )
+    demand(later, "motion.finish", motion.finish, &format!("a time after motion.start = {} s", motion.start))?;
+    demand(motion.end > 0.0 && motion.end.is_finite(), "motion.end", motion.end, "a finite time above 0 s")
 }
 
 fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
     let tracker = &scenario.tracker;
     positive("tracker.rate", tracker.rate, 1e9, "Hz")?;
     not_negative("tracker.position_noise", tracker.position_noise, "m")?;
-    not_negative(
-        "tracker.orientation_noise",
-        tracker.orientation_noise,
-        "rad",
-    )?;
-    not_negative(
-        "tracker.position_resolution",
-        tracker.position_resolution,
-        "m",
-    )?;
-    not_negative(
-        "tracker.orientation_resolution",
-        tracker.orientation_resolution,
-        "rad",
-    )?;
+    not_negative("tracker.orientation_noise", tracker.orientation_noise, "rad")?;
+    not_negative("tracker.position_resolution", tracker.position_resolution, "m")?;
+    not_negative("tracker.orientation_resolution", tracker.orientation_resolution, "rad")?;
     not_negative("tracker.latency", tracker.latency, "s")?;
     let cells = &scenario.load_cells;
     let epsilon = cells.epsilon_tau;
-    demand(
-        (0.0..1.0).contains(&epsilon),
-        "load_cells.epsilon_tau",
-        epsilon,
-        "from 0 to below 1",
-    )?;
+    demand((0.0..1.0).contains(&epsilon), "load_cells.epsilon_tau", epsilon, "from 0 to below 1")?;
     not_negative("load_cells.noise", cells.noise, "N")?;
-    demand(
-        cells.preload.is_finite(),
-        "load_cells.preload",
-        cells.preload,
-        "a finite force in N",
-    )?;
+    demand(cells.preload.is_finite(), "load_cells.preload", cells.preload, "a finite force in N")?;
     let detection = &scenario.detection;
-    for (key, threshold, unit) in [
-        ("detection.xi1", detection.xi1, "N·m"),
-        ("detection.xi2", detection.xi2, "m"),
-    ] {
+    for (key, threshold, unit) in [("detection.xi1", detection.xi1, "N·m"), ("detection.xi2", detection.xi2, "m")] {
         if let Threshold::On(value) = threshold {
             let allowed = format!("a finite number, 0 {unit} or more, or \"off\"");
             demand(value >= 0.0 && value.is_finite(), key, value, &allowed)?;
@@ -327,20 +234,13 @@ fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {
         Place::Disk(disk) => {
             let count = robot.disks.len();
             if disk > count as u64 {
-                let allowed = format!(
-                    "a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact"
-                );
+                let allowed = format!("a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact");
                 return Err(refusal("contact.disk", disk.to_string(), allowed));
             }
         }
         Place::ArcLength(s) => {
             let allowed = format!("an arc length from 0 to robot.length = {} m", robot.length);
-            demand(
-                (0.0..=robot.length).contains(&s),
-                "contact.arc_length",
-                s,
-                &allowed,
-            )?;
+            demand((0.0..=robot.length).contains(&s), "contact.arc_length", s, &allowed)?;
         }
     }
     match contact.start {
@@ -351,19 +251,10 @@ fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {
 
 fn check_length(scenario: &Scenario) -> Result<usize, ScenarioError> {
     let rate = scenario.loop_rate;
-    demand(
-        rate > 0.0 && rate.is_finite(),
-        "loop_rate",
-        rate,
-        "a finite rate above 0 Hz",
-    )?;
+    demand(rate > 0.0 && rate.is_finite(), "loop_rate", rate, "a finite rate above 0 Hz")?;
     let steps = libm::floor(scenario.motion.end * rate + 1e-6);
     if steps + 1.0 > MAX_SAMPLES {
-        let value = format!(
-            "{} with loop_rate = {}",
-            text::number(scenario.motion.end),
-            text::number(rate)
-        );
+        let value = format!("{} with loop_rate = {}", text::number(scenario.motion.end), text::number(rate));
         let allowed = format!("a run of at most {MAX_SAMPLES:e} samples, motion.end · loop_rate");
         return Err(refusal("motion.end", value, allowed));
     }
@@ -390,15 +281,7 @@ fn resolve_contact(scenario: &Scenario) -> Option<PlannedContact> {
         Start::Bend(bend) => bend,
     };
     // A beam that meets the straight segment stands on the side it is about to bend to.
-    let toward = if bend.abs() > STRAIGHT {
-        bend
-    } else {
-        scenario.motion.theta_start - scenario.motion.theta_end
-    };
+    let toward = if bend.abs() > STRAIGHT { bend } else { scenario.motion.theta_start - scenario.motion.theta_end };
     let side = if toward < 0.0 { -1.0 } else { 1.0 };
-    Some(PlannedContact {
-        arc_length,
-        bend,
-        side,
-    })
+    Some(PlannedContact { arc_length, bend, side })
 }

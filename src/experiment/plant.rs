@@ -51,10 +51,7 @@ impl<'a> Plant<'a> {
     /// The plant of a plan.
     #[must_use]
     pub fn new(plan: &'a Plan) -> Self {
-        Self {
-            plan,
-            plane: Configuration::new(0.0, plan.scenario().motion.delta),
-        }
+        Self { plan, plane: Configuration::new(0.0, plan.scenario().motion.delta) }
     }
 
     /// Commanded configuration and θ̇L (rad/s) at `time` (s).
@@ -67,9 +64,7 @@ impl<'a> Plant<'a> {
     /// Whether the beam holds the backbone in a commanded configuration.
     #[must_use]
     pub fn in_contact(&self, configuration: &Configuration) -> bool {
-        self.plan
-            .contact()
-            .is_some_and(|contact| contact.holds_at(configuration.bend()))
+        self.plan.contact().is_some_and(|contact| contact.holds_at(configuration.bend()))
     }
 
     /// The true shape in a commanded configuration.
@@ -77,13 +72,10 @@ impl<'a> Plant<'a> {
     pub fn shape(&self, configuration: Configuration) -> Shape {
         let length = self.plan.segment().length;
         match self.plan.contact() {
-            Some(contact) if contact.holds_at(configuration.bend()) => Shape::Held(
-                Constrained::new(length, contact.arc_length, contact.bend, configuration),
-            ),
-            _ => Shape::Free(Arc {
-                length,
-                configuration,
-            }),
+            Some(contact) if contact.holds_at(configuration.bend()) => {
+                Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration))
+            }
+            _ => Shape::Free(Arc { length, configuration }),
         }
     }
 
@@ -100,17 +92,13 @@ impl<'a> Plant<'a> {
             Some(contact) if contact.holds_at(configuration.bend()) => {
                 let share = contact.arc_length / segment.length;
                 let upper = segment.shortened(segment.length - contact.arc_length);
-                (
-                    upper,
-                    configuration.with_bend(configuration.bend() - contact.bend * share),
-                )
+                (upper, configuration.with_bend(configuration.bend() - contact.bend * share))
             }
             _ => (*segment, configuration),
         };
         if part.shortest_backbone(shape.bend()) <= 0.0 {
             return Vec3::repeat(f64::NAN);
         }
-        part.forces_from_load(&shape, &part.energy_gradient(&shape))
-            .add_scalar(preload)
+        part.forces_from_load(&shape, &part.energy_gradient(&shape)).add_scalar(preload)
     }
 }

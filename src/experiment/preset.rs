@@ -35,12 +35,7 @@ impl Preset {
     /// What it shows, in a sentence.
     #[must_use]
     pub fn summary(&self) -> &'static str {
-        self.toml
-            .lines()
-            .next()
-            .unwrap_or_default()
-            .trim_start_matches('#')
-            .trim()
+        self.toml.lines().next().unwrap_or_default().trim_start_matches('#').trim()
     }
 
     /// The scenario, open to overrides.
@@ -65,15 +60,8 @@ impl Preset {
 /// # Errors
 /// When there is none, with the names that exist.
 pub fn find(name: &str) -> Result<&'static Preset, ScenarioError> {
-    PRESETS
-        .iter()
-        .find(|preset| preset.name == name)
-        .ok_or_else(|| ScenarioError::UnknownPreset {
-            name: name.into(),
-            known: PRESETS
-                .iter()
-                .map(|preset| preset.name)
-                .collect::<Vec<_>>()
-                .join(", "),
-        })
+    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| ScenarioError::UnknownPreset {
+        name: name.into(),
+        known: PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", "),
+    })
 }

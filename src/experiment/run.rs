@@ -103,11 +103,7 @@ impl<'a> Simulation<'a> {
             tracker: SimulatedTracker::new(plan),
             cells: SimulatedCells::new(plan),
             filter: PoseFilter::new(&scenario.filter, scenario.loop_rate),
-            detector: Detector::new(
-                *plan.segment(),
-                scenario.detection.clone(),
-                scenario.load_cells.epsilon_tau,
-            ),
+            detector: Detector::new(*plan.segment(), scenario.detection.clone(), scenario.load_cells.epsilon_tau),
             crossings: Vec::new(),
             contact_time: None,
             next: 0,
@@ -150,16 +146,9 @@ impl Iterator for Simulation<'_> {
         let reading = self.tracker.read(&self.plant, time);
         let motion = self.filter.push(&reading);
         let tau_lc = self.cells.read(&self.plant.joint_forces(configuration));
-        let measurement = Measurement {
-            time,
-            configuration,
-            motion,
-            tau_lc,
-        };
+        let measurement = Measurement { time, configuration, motion, tau_lc };
         let crossings = &mut self.crossings;
-        let judgement = self
-            .detector
-            .judge(&measurement, |crossing| crossings.push(crossing));
+        let judgement = self.detector.judge(&measurement, |crossing| crossings.push(crossing));
         Some(Sample {
             time,
             theta_l: configuration.theta_l(),
@@ -222,11 +211,7 @@ impl Fingerprint {
     fn add(&mut self, sample: &Sample) {
         for channel in CHANNELS {
             let value = (channel.value)(sample);
-            let bits = if value.is_nan() {
-                f64::NAN.to_bits() & (u64::MAX >> 1)
-            } else {
-                value.to_bits()
-            };
+            let bits = if value.is_nan() { f64::NAN.to_bits() & (u64::MAX >> 1) } else { value.to_bits() };
             for byte in bits.to_le_bytes() {
                 self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             }
@@ -249,11 +234,5 @@ pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
     samples.extend(simulation.by_ref());
     let (detection, contact_time) = (simulation.detection(), simulation.contact_time());
     let crossings = std::mem::take(&mut simulation.crossings);
-    Ok(Run {
-        samples,
-        crossings,
-        detection,
-        contact_time,
-        plan,
-    })
+    Ok(Run { samples, crossings, detection, contact_time, plan })
 }

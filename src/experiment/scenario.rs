@@ -101,11 +101,7 @@ pub struct Tube {
 
 impl Default for Tube {
     fn default() -> Self {
-        Self {
-            outer_diameter: 0.889e-3,
-            inner_diameter: 0.762e-3,
-            youngs_modulus: 58.0e9,
-        }
+        Self { outer_diameter: 0.889e-3, inner_diameter: 0.762e-3, youngs_modulus: 58.0e9 }
     }
 }
 
@@ -114,8 +110,7 @@ impl Tube {
     #[must_use]
     pub fn bending_stiffness(&self) -> f64 {
         let fourth = |d: f64| (d * d) * (d * d);
-        self.youngs_modulus * PI / 64.0
-            * (fourth(self.outer_diameter) - fourth(self.inner_diameter))
+        self.youngs_modulus * PI / 64.0 * (fourth(self.outer_diameter) - fourth(self.inner_diameter))
     }
 }
 
@@ -139,14 +134,7 @@ pub struct Motion {
 
 impl Default for Motion {
     fn default() -> Self {
-        Self {
-            theta_start: FRAC_PI_2,
-            theta_end: 0.0,
-            delta: 0.0,
-            start: 3.0,
-            finish: 8.0,
-            end: 10.0,
-        }
+        Self { theta_start: FRAC_PI_2, theta_end: 0.0, delta: 0.0, start: 3.0, finish: 8.0, end: 10.0 }
     }
 }
 
@@ -162,10 +150,7 @@ pub struct Contact {
 
 impl Default for Contact {
     fn default() -> Self {
-        Self {
-            place: Place::Disk(2),
-            start: Start::Time(5.80),
-        }
+        Self { place: Place::Disk(2), start: Start::Time(5.80) }
     }
 }
 
@@ -240,12 +225,7 @@ impl From<Contact> for ContactKeys {
             Start::Time(time) => (Some(time), None),
             Start::Bend(bend) => (None, Some(bend)),
         };
-        Self {
-            disk,
-            arc_length,
-            time,
-            bend,
-        }
+        Self { disk, arc_length, time, bend }
     }
 }
 
@@ -307,11 +287,7 @@ pub struct LoadCells {
 
 impl Default for LoadCells {
     fn default() -> Self {
-        Self {
-            epsilon_tau: 0.10,
-            noise: 0.0,
-            preload: 0.0,
-        }
+        Self { epsilon_tau: 0.10, noise: 0.0, preload: 0.0 }
     }
 }
 
@@ -327,10 +303,7 @@ pub struct Filter {
 
 impl Default for Filter {
     fn default() -> Self {
-        Self {
-            length: 500,
-            averaging: Averaging::Readings,
-        }
+        Self { length: 500, averaging: Averaging::Readings }
     }
 }
 
@@ -360,12 +333,7 @@ pub struct Thresholds {
 
 impl Default for Thresholds {
     fn default() -> Self {
-        Self {
-            xi1: Threshold::On(0.03),
-            xi2: Threshold::On(0.007),
-            armed_from: 5.0,
-            min_speed: 0.02,
-        }
+        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.05 }
     }
 }
 

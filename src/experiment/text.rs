@@ -17,14 +17,19 @@ pub struct Draft {
 }
 
 impl Draft {
+    /// From a scenario in hand.
+    #[must_use]
+    pub fn from_scenario(scenario: &Scenario) -> Self {
+        Self { table: Table::try_from(scenario).unwrap_or_default() }
+    }
+
     /// From a file's bytes.
     ///
     /// # Errors
     /// When they are not UTF-8, or not TOML.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ScenarioError> {
-        let text = std::str::from_utf8(bytes).map_err(|error| ScenarioError::NotText {
-            offset: error.valid_up_to(),
-        })?;
+        let text =
+            std::str::from_utf8(bytes).map_err(|error| ScenarioError::NotText { offset: error.valid_up_to() })?;
         Self::from_toml(text)
     }
 
@@ -34,14 +39,10 @@ impl Draft {
     /// When it is not TOML.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let table = text
-            .parse::<Table>()
-            .map_err(|error| ScenarioError::Syntax {
-                line: error.span().map_or(1, |span| {
-                    1 + text[..span.start.min(text.len())].matches('\n').count()
-                }),
-                message: error.message().replace('\n', " "),
-            })?;
+        let table = text.parse::<Table>().map_err(|error| ScenarioError::Syntax {
+            line: error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count()),
+            message: error.message().replace('\n', " "),
+        })?;
         Ok(Self { table })
     }
 
@@ -63,15 +64,11 @@ impl Draft {
         let (groups, name) = key.rsplit_once('.').unwrap_or(("", key));
         let mut table = &mut self.table;
         for group in groups.split('.').filter(|group| !group.is_empty()) {
-            let entry = table
-                .entry(group)
-                .or_insert_with(|| Value::Table(Table::new()));
-            table = entry
-                .as_table_mut()
-                .ok_or_else(|| ScenarioError::UnknownKey {
-                    key: key.into(),
-                    known: format!("{group}, which holds no keys of its own"),
-                })?;
+            let entry = table.entry(group).or_insert_with(|| Value::Table(Table::new()));
+            table = entry.as_table_mut().ok_or_else(|| ScenarioError::UnknownKey {
+                key: key.into(),
+                known: format!("{group}, which holds no keys of its own"),
+            })?;
         }
         if groups == "contact" {
             for (one, other) in EITHER_OR {
@@ -86,14 +83,23 @@ impl Draft {
         Ok(())
     }
 
+    /// The draft itself when every key in it exists.
+    ///
+    /// # Errors
+    /// The first key that does not.
+    pub fn known_keys_only(self) -> Result<Self, ScenarioError> {
+        check_keys(&self.table)?;
+        Ok(self)
+    }
+
     /// The scenario, checked.
     ///
     /// # Errors
     /// The first key that is unknown or value that is impossible.
     pub fn finish(self) -> Result<Scenario, ScenarioError> {
-        check_keys(&self.table)?;
-        let scenario: Scenario = serde_path_to_error::deserialize(Value::Table(self.table.clone()))
-            .map_err(|error| type_error(&self.table, &error))?;
+        let this = self.known_keys_only()?;
+        let scenario: Scenario = serde_path_to_error::deserialize(Value::Table(this.table.clone()))
+            .map_err(|error| type_error(&this.table, &error))?;
         Plan::new(&scenario)?;
         Ok(scenario)
     }
@@ -119,29 +125,19 @@ impl Scenario {
 /// A number as a message shows it.
 #[must_use]
 pub fn number(value: f64) -> String {
-    if value.is_nan() {
-        "nan".into()
-    } else {
-        format!("{value}")
-    }
+    if value.is_nan() { "nan".into() } else { format!("{value}") }
 }
 
 /// The keys that exist in a group ("" for the top).
 fn known_keys(group: &str) -> Option<Vec<String>> {
-    let top: Table = toml::Value::try_from(Scenario::default())
-        .ok()?
-        .as_table()?
-        .clone();
+    let top: Table = toml::Value::try_from(Scenario::default()).ok()?.as_table()?.clone();
     let mut table = &top;
     for name in group.split('.').filter(|name| !name.is_empty()) {
         table = table.get(name)?.as_table()?;
     }
     let mut keys: Vec<String> = table.keys().cloned().collect();
     if group == "contact" {
-        keys = EITHER_OR
-            .iter()
-            .flat_map(|(one, other)| [(*one).into(), (*other).into()])
-            .collect();
+        keys = EITHER_OR.iter().flat_map(|(one, other)| [(*one).into(), (*other).into()]).collect();
     }
     Some(keys)
 }
@@ -152,16 +148,9 @@ fn check_keys(table: &Table) -> Result<(), ScenarioError> {
             return Ok(());
         };
         for (key, value) in table {
-            let path = if group.is_empty() {
-                key.clone()
-            } else {
-                format!("{group}.{key}")
-            };
+            let path = if group.is_empty() { key.clone() } else { format!("{group}.{key}") };
             if !known.contains(key) {
-                return Err(ScenarioError::UnknownKey {
-                    key: path,
-                    known: known.join(", "),
-                });
+                return Err(ScenarioError::UnknownKey { key: path, known: known.join(", ") });
             }
             if let Value::Table(inner) = value {
                 walk(inner, &path)?;
@@ -181,9 +170,7 @@ fn type_error(table: &Table, error: &serde_path_to_error::Error<toml::de::Error>
         value = inner.and_then(|table| table.get(name));
         inner = value.and_then(Value::as_table);
     }
-    let value = value
-        .map_or_else(String::new, ToString::to_string)
-        .replace('\n', " ");
+    let value = value.map_or_else(String::new, ToString::to_string).replace('\n', " ");
     let allowed = match (path.as_str(), inner) {
         ("seed" | "contact.disk", _) => "a whole number, 0 or more",
         ("filter.length", _) => "a whole number, 1 or more",
@@ -195,20 +182,7 @@ fn type_error(table: &Table, error: &serde_path_to_error::Error<toml::de::Error>
         _ if matches!(known_keys(&path), Some(keys) if !keys.is_empty()) => "a table of keys",
         _ => "a number",
     };
-    ScenarioError::Value {
-        key: path,
-        value,
-        allowed: allowed.into(),
-    }
-}
-
-impl Draft {
-    /// From a scenario in hand.
-    #[must_use]
-    pub fn from_scenario(scenario: &Scenario) -> Self {
-        let table = Table::try_from(scenario).unwrap_or_default();
-        Self { table }
-    }
+    ScenarioError::Value { key: path, value, allowed: allowed.into() }
 }
 
 #[cfg(test)]
@@ -248,13 +222,9 @@ mod tests {
     #[test]
     fn a_scenario_survives_its_own_text() {
         let mut draft = Draft::from_scenario(&Scenario::default());
-        for text in [
-            "contact.arc_length=0.011",
-            "contact.bend=0.4",
-            "detection.xi1=off",
-            "seed=99",
-            "robot.disks=[0.01]",
-        ] {
+        for text in
+            ["contact.arc_length=0.011", "contact.bend=0.4", "detection.xi1=off", "seed=99", "robot.disks=[0.01]"]
+        {
             draft.set(text).expect(text);
         }
         let scenario = draft.finish().expect("valid");
@@ -268,10 +238,7 @@ mod tests {
         draft.set("contact.bend = 0.5").expect("set");
         draft.set("contact.disk = 3").expect("set");
         let toml = draft.finish().expect("valid").to_toml();
-        assert!(
-            toml.contains("disk = 3") && toml.contains("bend = 0.5"),
-            "{toml}"
-        );
+        assert!(toml.contains("disk = 3") && toml.contains("bend = 0.5"), "{toml}");
     }
 
     #[test]
@@ -279,68 +246,29 @@ mod tests {
         for (text, parts) in [
             ("bogus = 1", &["bogus", "loop_rate"][..]),
             ("[robot]\nlenght = 1", &["robot.lenght", "length"]),
-            (
-                "[robot.primary]\nx = 1",
-                &["robot.primary.x", "outer_diameter"],
-            ),
+            ("[robot.primary]\nx = 1", &["robot.primary.x", "outer_diameter"]),
             ("robot = 3", &["robot", "3", "table"]),
-            (
-                "[robot]\nlength = -0.03",
-                &["robot.length", "-0.03", "above 0"],
-            ),
+            ("[robot]\nlength = -0.03", &["robot.length", "-0.03", "above 0"]),
             ("[robot]\nlength = nan", &["robot.length", "nan"]),
-            (
-                "[robot]\nlength = \"long\"",
-                &["robot.length", "long", "a number"],
-            ),
-            (
-                "[robot]\nlength = 0.02",
-                &["robot.disks[2]", "0.0225", "0.02"],
-            ),
-            (
-                "[robot]\npitch_radius = inf",
-                &["robot.pitch_radius", "inf"],
-            ),
-            (
-                "[robot]\npitch_radius = 0.02",
-                &["motion.theta_end", "secondary backbone"],
-            ),
-            (
-                "[robot]\ndisks = [0.01, 0.005]",
-                &["robot.disks[1]", "0.005"],
-            ),
+            ("[robot]\nlength = \"long\"", &["robot.length", "long", "a number"]),
+            ("[robot]\nlength = 0.02", &["robot.disks[2]", "0.0225", "0.02"]),
+            ("[robot]\npitch_radius = inf", &["robot.pitch_radius", "inf"]),
+            ("[robot]\npitch_radius = 0.02", &["motion.theta_end", "secondary backbone"]),
+            ("[robot]\ndisks = [0.01, 0.005]", &["robot.disks[1]", "0.005"]),
             ("[robot]\ndisks = 3", &["robot.disks", "list"]),
             ("[contact]\ndisk = 4", &["contact.disk", "4", "1 to 3"]),
             ("[contact]\ndisk = -1", &["contact.disk", "-1", "whole"]),
             ("[contact]\ndisk = 1.5", &["contact.disk", "1.5", "whole"]),
-            (
-                "[contact]\narc_length = 0.031",
-                &["contact.arc_length", "0.031", "0.03"],
-            ),
-            (
-                "[contact]\ndisk = 1\narc_length = 0.01",
-                &["contact", "not both"],
-            ),
+            ("[contact]\narc_length = 0.031", &["contact.arc_length", "0.031", "0.03"]),
+            ("[contact]\ndisk = 1\narc_length = 0.01", &["contact", "not both"]),
             ("[contact]\ntime = 1\nbend = 0.01", &["contact", "not both"]),
             ("[contact]\nbend = 7", &["contact.bend", "7", "turn"]),
             ("[filter]\nlength = 0", &["filter.length", "0", "whole"]),
             ("[filter]\nlength = 2.5", &["filter.length", "2.5", "whole"]),
-            (
-                "[filter]\nlength = 20000",
-                &["filter.length", "20000", "10001"],
-            ),
-            (
-                "[filter]\naveraging = \"median\"",
-                &["filter.averaging", "median", "readings"],
-            ),
-            (
-                "[detection]\nxi2 = -0.007",
-                &["detection.xi2", "-0.007", "0 m or more"],
-            ),
-            (
-                "[detection]\nxi2 = \"never\"",
-                &["detection.xi2", "never", "off"],
-            ),
+            ("[filter]\nlength = 20000", &["filter.length", "20000", "10001"]),
+            ("[filter]\naveraging = \"median\"", &["filter.averaging", "median", "readings"]),
+            ("[detection]\nxi2 = -0.007", &["detection.xi2", "-0.007", "0 m or more"]),
+            ("[detection]\nxi2 = \"never\"", &["detection.xi2", "never", "off"]),
             ("[motion]\nend = 1e9", &["motion.end", "1000000000", "1e8"]),
             ("[motion]\nfinish = 2", &["motion.finish", "2", "after"]),
             ("seed = -1", &["seed", "-1", "whole"]),
@@ -349,10 +277,7 @@ mod tests {
         ] {
             let message = refused(text);
             for part in parts {
-                assert!(
-                    message.contains(part),
-                    "{text:?} → {message:?} lacks {part:?}"
-                );
+                assert!(message.contains(part), "{text:?} → {message:?} lacks {part:?}");
             }
             assert!(!message.contains('\n'), "{message:?} is more than a line");
         }
@@ -360,23 +285,13 @@ mod tests {
 
     #[test]
     fn bytes_that_are_not_text_are_refused() {
-        let message = Draft::from_bytes(b"seed = \xff")
-            .expect_err("bytes")
-            .to_string();
+        let message = Draft::from_bytes(b"seed = \xff").expect_err("bytes").to_string();
         assert!(message.contains("byte 7"), "{message}");
     }
 
     #[test]
     fn overrides_that_are_none_are_refused() {
-        for text in [
-            "seed",
-            "=3",
-            "seed=",
-            "seed.x=1",
-            "contact.disk.x=1",
-            ".=2",
-            "seed=1\nloop_rate=3",
-        ] {
+        for text in ["seed", "=3", "seed=", "seed.x=1", "contact.disk.x=1", ".=2", "seed=1\nloop_rate=3"] {
             let mut draft = Draft::from_scenario(&Scenario::default());
             let refused = draft.set(text).err().or_else(|| draft.finish().err());
             assert!(refused.is_some(), "{text:?} was taken");

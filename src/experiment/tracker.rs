@@ -68,11 +68,7 @@ impl SimulatedTracker {
         let tip = plant.shape(plant.command(time).0).tip_pose();
         let settings = &self.settings;
         let noise = |noise: &mut Normal, deviation: f64| {
-            if deviation > 0.0 {
-                deviation * noise.draw()
-            } else {
-                0.0
-            }
+            if deviation > 0.0 { deviation * noise.draw() } else { 0.0 }
         };
         let position = tip.position.map(|x| {
             let disturbed = x + noise(&mut self.noise, settings.position_noise);
@@ -80,12 +76,9 @@ impl SimulatedTracker {
         });
         let mut rotation = tip.rotation * self.tip_from_marker;
         if settings.orientation_noise > 0.0 {
-            rotation =
-                from_euler(&[(); 3].map(|()| noise(&mut self.noise, settings.orientation_noise)))
-                    * rotation;
+            rotation = from_euler(&[(); 3].map(|()| noise(&mut self.noise, settings.orientation_noise))) * rotation;
         }
-        let mut angles =
-            to_euler(&rotation).map(|angle| rounded(angle, settings.orientation_resolution));
+        let mut angles = to_euler(&rotation).map(|angle| rounded(angle, settings.orientation_resolution));
         if let Some((_, before)) = &self.held {
             for (angle, before) in angles.iter_mut().zip(before.angles) {
                 *angle = unwrapped(*angle, before);
@@ -97,18 +90,10 @@ impl SimulatedTracker {
 
 /// The multiple of `step` nearest to `value`; `value` itself for a step of 0.
 fn rounded(value: f64, step: f64) -> f64 {
-    if step > 0.0 {
-        step * rint(value / step)
-    } else {
-        value
-    }
+    if step > 0.0 { step * rint(value / step) } else { value }
 }
 
 /// `angle` plus the whole turns that bring it nearest to `before`.
 fn unwrapped(angle: f64, before: f64) -> f64 {
-    if (angle - before).abs() <= PI {
-        angle
-    } else {
-        angle + TAU * rint((before - angle) / TAU)
-    }
+    if (angle - before).abs() <= PI { angle } else { angle + TAU * rint((before - angle) / TAU) }
 }

@@ -24,11 +24,7 @@ pub struct Arc {
 impl Arc {
     /// The share of the arc below `s`, exact at the tip even for an arc of no length.
     fn share(&self, s: f64) -> f64 {
-        if s == self.length {
-            1.0
-        } else {
-            s / self.length
-        }
+        if s == self.length { 1.0 } else { s / self.length }
     }
 
     /// Pose of frame {S} at arc length `s` (m, within the arc), in the frame at the arc's start (Eqs. 3, 4).
@@ -53,11 +49,7 @@ impl Arc {
         let (sin, cos, versine) = (angle.sin(), angle.cos(), angle.versine());
         let versine_ratio = angle.value() * angle.versinc();
         let pose = Pose {
-            position: Vec3::new(
-                s * cd * versine_ratio,
-                -s * sd * versine_ratio,
-                s * angle.sinc(),
-            ),
+            position: Vec3::new(s * cd * versine_ratio, -s * sd * versine_ratio, s * angle.sinc()),
             rotation: Mat3::new(
                 1.0 - versine * cd * cd,
                 versine * sd * cd,
@@ -79,11 +71,7 @@ impl Arc {
             },
             delta_per_bend: Twist {
                 linear: Vec3::new(-sd * across, -cd * across, 0.0),
-                angular: Vec3::new(
-                    share * angle.sinc() * cd,
-                    -share * angle.sinc() * sd,
-                    -share * versine_ratio,
-                ),
+                angular: Vec3::new(share * angle.sinc() * cd, -share * angle.sinc() * sd, -share * versine_ratio),
             },
             bend,
         };

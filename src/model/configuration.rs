@@ -19,12 +19,7 @@ impl Configuration {
     #[must_use]
     pub fn new(bend: f64, delta: f64) -> Self {
         let (sin_delta, cos_delta) = sincos(delta);
-        Self {
-            bend,
-            delta,
-            sin_delta,
-            cos_delta,
-        }
+        Self { bend, delta, sin_delta, cos_delta }
     }
 
     /// From the paper's θL (rad; π/2 is straight) and δ (rad). θL is taken as the exact double it is.

@@ -20,29 +20,16 @@ impl Constrained {
     #[must_use]
     pub fn new(length: f64, s_c: f64, bend_at_contact: f64, configuration: Configuration) -> Self {
         let lower_bend = bend_at_contact * (s_c / length);
-        let lower = Arc {
-            length: s_c,
-            configuration: configuration.with_bend(lower_bend),
-        };
-        let upper = Arc {
-            length: length - s_c,
-            configuration: configuration.with_bend(configuration.bend() - lower_bend),
-        };
-        Self {
-            lower,
-            upper,
-            base_from_contact: lower.pose(s_c),
-        }
+        let lower = Arc { length: s_c, configuration: configuration.with_bend(lower_bend) };
+        let upper =
+            Arc { length: length - s_c, configuration: configuration.with_bend(configuration.bend() - lower_bend) };
+        Self { lower, upper, base_from_contact: lower.pose(s_c) }
     }
 
     /// Pose at arc length `s` (m) of the whole backbone, in {B}.
     #[must_use]
     pub fn pose(&self, s: f64) -> Pose {
-        if s <= self.lower.length {
-            self.lower.pose(s)
-        } else {
-            self.above(&self.upper.pose(s - self.lower.length))
-        }
+        if s <= self.lower.length { self.lower.pose(s) } else { self.above(&self.upper.pose(s - self.lower.length)) }
     }
 
     /// Pose of the end disk, in {B}.

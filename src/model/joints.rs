@@ -52,12 +52,5 @@ pub fn configuration_from_joints(pitch_radius: f64, q: &Vec3) -> Configuration {
     let scale = 2.0 / (3.0 * pitch_radius);
     let x = -scale * (q.x + COS_BETA * (q.y + q.z));
     let y = scale * SIN_BETA * (q.y - q.z);
-    Configuration::new(
-        hypot(x, y),
-        if x == 0.0 && y == 0.0 {
-            0.0
-        } else {
-            atan2(y, x)
-        },
-    )
+    Configuration::new(hypot(x, y), if x == 0.0 && y == 0.0 { 0.0 } else { atan2(y, x) })
 }

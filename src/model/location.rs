@@ -22,12 +22,7 @@ pub struct Location {
 /// As in the paper, the part below s is taken to have frozen in the shape of `configuration`, the one
 /// commanded at the instant of detection; `rate` is the commanded ψ̇ then. `None` when the rate is zero.
 #[must_use]
-pub fn locate(
-    length: f64,
-    configuration: Configuration,
-    rate: Rate,
-    sensor_centrode: &Vec3,
-) -> Option<Location> {
+pub fn locate(length: f64, configuration: Configuration, rate: Rate, sensor_centrode: &Vec3) -> Option<Location> {
     let distance = |s: f64| {
         Constrained::new(length, s, configuration.bend(), configuration)
             .centrode(rate)
@@ -53,8 +48,5 @@ pub fn locate(
         }
     }
     let arc_length = 0.5 * (low + high);
-    Some(Location {
-        arc_length,
-        distance: distance(arc_length),
-    })
+    Some(Location { arc_length, distance: distance(arc_length) })
 }

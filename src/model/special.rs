@@ -36,11 +36,7 @@ impl Angle {
     #[must_use]
     pub fn new(x: f64) -> Self {
         let (sin_half, cos_half) = sincos(0.5 * x);
-        Self {
-            value: x,
-            sin_half,
-            cos_half,
-        }
+        Self { value: x, sin_half, cos_half }
     }
 
     /// `x`.
@@ -70,11 +66,7 @@ impl Angle {
     /// `sin x / x`; 1 at zero.
     #[must_use]
     pub fn sinc(self) -> f64 {
-        if self.value == 0.0 {
-            1.0
-        } else {
-            self.sin() / self.value
-        }
+        if self.value == 0.0 { 1.0 } else { self.sin() / self.value }
     }
 
     /// `(1 − cos x) / x²`; 1/2 at zero.
@@ -97,10 +89,7 @@ impl Angle {
         let x = self.value;
         if x.abs() < SERIES_LIMIT {
             let square = x * x;
-            x * SLOPE_SERIES
-                .iter()
-                .rev()
-                .fold(0.0, |sum, term| term - square * sum)
+            x * SLOPE_SERIES.iter().rev().fold(0.0, |sum, term| term - square * sum)
         } else {
             (self.sin() - x * self.cos()) / (x * x)
         }
@@ -108,11 +97,7 @@ impl Angle {
 
     /// `sin(x/2) / (x/2)`; 1 at zero.
     fn half_sinc(self) -> f64 {
-        if self.value == 0.0 {
-            1.0
-        } else {
-            2.0 * self.sin_half / self.value
-        }
+        if self.value == 0.0 { 1.0 } else { 2.0 * self.sin_half / self.value }
     }
 }
 
@@ -134,14 +119,8 @@ mod tests {
                 let angle = Angle::new(x);
                 assert!(close(angle.sinc(), sinc), "sinc({x})");
                 assert!(close(angle.versinc(), versinc), "versinc({x})");
-                assert!(
-                    close(angle.versine_ratio_slope(), slope),
-                    "versine_ratio_slope({x})"
-                );
-                assert!(
-                    close(angle.sinc_drop(), drop * x.signum()),
-                    "sinc_drop({x})"
-                );
+                assert!(close(angle.versine_ratio_slope(), slope), "versine_ratio_slope({x})");
+                assert!(close(angle.sinc_drop(), drop * x.signum()), "sinc_drop({x})");
             }
         }
     }
@@ -150,34 +129,20 @@ mod tests {
     fn is_relatively_exact_where_it_vanishes() {
         for &(x, _, _, _, drop) in REFERENCE.iter().filter(|row| row.0 < 0.5) {
             let ours = Angle::new(x).sinc_drop();
-            assert!(
-                (ours - drop).abs() <= 4.0 * f64::EPSILON * drop.abs(),
-                "sinc_drop({x})"
-            );
+            assert!((ours - drop).abs() <= 4.0 * f64::EPSILON * drop.abs(), "sinc_drop({x})");
         }
     }
 
     #[test]
     fn is_exact_at_zero() {
         let zero = Angle::new(0.0);
-        assert_eq!(
-            (
-                zero.sinc(),
-                zero.versinc(),
-                zero.versine_ratio_slope(),
-                zero.sinc_drop()
-            ),
-            (1.0, 0.5, 0.5, 0.0)
-        );
+        assert_eq!((zero.sinc(), zero.versinc(), zero.versine_ratio_slope(), zero.sinc_drop()), (1.0, 0.5, 0.5, 0.0));
     }
 
     #[test]
     fn does_not_jump_at_the_series_switch() {
         let below = Angle::new(f64::from_bits(SERIES_LIMIT.to_bits() - 1)).sinc_drop();
         let above = Angle::new(SERIES_LIMIT).sinc_drop();
-        assert!(
-            (above - below).abs() < 4.0 * f64::EPSILON,
-            "{below} {above}"
-        );
+        assert!((above - below).abs() < 4.0 * f64::EPSILON, "{below} {above}");
     }
 }

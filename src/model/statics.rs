@@ -56,10 +56,7 @@ impl Segment {
     /// The primary backbone in a configuration.
     #[must_use]
     pub fn arc(&self, configuration: Configuration) -> Arc {
-        Arc {
-            length: self.length,
-            configuration,
-        }
+        Arc { length: self.length, configuration }
     }
 
     /// A segment of the same backbones, `length` m long: the part above a contact.
@@ -90,8 +87,7 @@ impl Segment {
         let bend = configuration.bend();
         let compliance = self.secondary_compliance(configuration);
         let through_lengths = -self.pitch_radius / self.length * compliance.slope;
-        let by_bend = bend / self.length
-            * (self.ep_ip + self.es_is * (compliance.sum + 0.5 * bend * through_lengths));
+        let by_bend = bend / self.length * (self.ep_ip + self.es_is * (compliance.sum + 0.5 * bend * through_lengths));
         Covector {
             theta_l: -by_bend,
             delta_per_bend: bend / (2.0 * self.length) * self.es_is * compliance.slope_delta,
@@ -137,8 +133,7 @@ impl Segment {
             delta_per_bend: gradient.delta_per_bend - jacobian.delta_per_bend.power(wrench),
             bend: configuration.bend(),
         };
-        self.forces_from_load(configuration, &load)
-            .add_scalar(preload)
+        self.forces_from_load(configuration, &load).add_scalar(preload)
     }
 
     /// The least-norm τ with J_qψᵀ τ = `load`, N.
@@ -153,29 +148,18 @@ impl Segment {
     #[must_use]
     pub fn generalised_force(&self, configuration: &Configuration, tau: &Vec3) -> Covector {
         let (theta, delta_per_bend) = joint_jacobian_per_bend(self.pitch_radius, configuration);
-        Covector {
-            theta_l: theta.dot(tau),
-            delta_per_bend: delta_per_bend.dot(tau),
-            bend: configuration.bend(),
-        }
+        Covector { theta_l: theta.dot(tau), delta_per_bend: delta_per_bend.dot(tau), bend: configuration.bend() }
     }
 
     /// The joint force deviation Θ = ‖J_qψᵀ τ_lc − ∇E‖ (Eq. 12, with J_qψᵀ for the misprint), N·m.
     #[must_use]
     pub fn residual(&self, configuration: &Configuration, tau_lc: &Vec3) -> f64 {
-        self.generalised_force(configuration, tau_lc)
-            .minus(&self.energy_gradient(configuration))
-            .norm()
+        self.generalised_force(configuration, tau_lc).minus(&self.energy_gradient(configuration)).norm()
     }
 
     /// The detectability bound ε_c = ε_τ ‖J_qψᵀ τ_lc‖ (Eq. 16), N·m: exact when all cells share one relative error.
     #[must_use]
-    pub fn common_error_bound(
-        &self,
-        configuration: &Configuration,
-        tau_lc: &Vec3,
-        epsilon_tau: f64,
-    ) -> f64 {
+    pub fn common_error_bound(&self, configuration: &Configuration, tau_lc: &Vec3, epsilon_tau: f64) -> f64 {
         epsilon_tau * self.generalised_force(configuration, tau_lc).norm()
     }
 
@@ -183,24 +167,11 @@ impl Segment {
     ///
     /// Never below [`Segment::common_error_bound`]; unlike it, it grows with the preload.
     #[must_use]
-    pub fn independent_error_bound(
-        &self,
-        configuration: &Configuration,
-        tau_lc: &Vec3,
-        epsilon_tau: f64,
-    ) -> f64 {
+    pub fn independent_error_bound(&self, configuration: &Configuration, tau_lc: &Vec3, epsilon_tau: f64) -> f64 {
         // A sign choice and its opposite have one norm: four of the eight suffice.
-        let signs = [
-            [1.0, 1.0, 1.0],
-            [1.0, 1.0, -1.0],
-            [1.0, -1.0, 1.0],
-            [1.0, -1.0, -1.0],
-        ];
+        let signs = [[1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0], [1.0, -1.0, -1.0]];
         let largest = signs
-            .map(|sign| {
-                self.generalised_force(configuration, &tau_lc.component_mul(&Vec3::from(sign)))
-                    .norm()
-            })
+            .map(|sign| self.generalised_force(configuration, &tau_lc.component_mul(&Vec3::from(sign))).norm())
             .into_iter()
             .fold(0.0, f64::max);
         epsilon_tau * largest

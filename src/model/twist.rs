@@ -16,10 +16,7 @@ impl Twist {
     /// The same motion seen from a frame in which this one is turned by `rotation` (the 6×6 block-diagonal of Eq. 22).
     #[must_use]
     pub fn rotated(self, rotation: &Mat3) -> Self {
-        Self {
-            linear: rotation * self.linear,
-            angular: rotation * self.angular,
-        }
+        Self { linear: rotation * self.linear, angular: rotation * self.angular }
     }
 
     /// Power of a wrench acting at the frame's origin (W, or N·m as a Jacobian column).
@@ -39,20 +36,14 @@ impl Twist {
 impl Add for Twist {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            linear: self.linear + other.linear,
-            angular: self.angular + other.angular,
-        }
+        Self { linear: self.linear + other.linear, angular: self.angular + other.angular }
     }
 }
 
 impl Mul<f64> for Twist {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
-        Self {
-            linear: self.linear * factor,
-            angular: self.angular * factor,
-        }
+        Self { linear: self.linear * factor, angular: self.angular * factor }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Integration tests: one binary, one module per subject.
 
+#[cfg(feature = "cli")]
+mod cli;
 mod experiment;
 mod golden;
 mod misprints;

@@ -16,25 +16,14 @@ const S: f64 = 0.018;
 /// One column of the Jacobian by dual numbers: linear, then angular.
 fn column(which: usize) -> [f64; 6] {
     let seed = |i: usize, x: f64| {
-        if i == which {
-            Dual64::from(x).derivative()
-        } else {
-            Dual64::from(x)
-        }
+        if i == which { Dual64::from(x).derivative() } else { Dual64::from(x) }
     };
     let (theta_l, delta) = (seed(0, THETA_L), seed(1, DELTA));
     let p = position(theta_l, delta, S, LENGTH);
     let r = rotation(theta_l, delta, S, LENGTH);
     let matrix = |part: fn(&Dual64) -> f64| Mat3::from_fn(|i, j| part(&r[i][j]));
     let omega = matrix(|x| x.eps) * matrix(|x| x.re).transpose();
-    [
-        p[0].eps,
-        p[1].eps,
-        p[2].eps,
-        omega[(2, 1)],
-        omega[(0, 2)],
-        omega[(1, 0)],
-    ]
+    [p[0].eps, p[1].eps, p[2].eps, omega[(2, 1)], omega[(0, 2)], omega[(1, 0)]]
 }
 
 fn ours() -> [[f64; 2]; 6] {
@@ -50,10 +39,7 @@ fn shows(row: usize, col: usize, printed: f64) {
     let truth = column(col)[row];
     let ours = ours()[row][col];
     assert!((ours - truth).abs() < 1e-14, "ours: {ours} against {truth}");
-    assert!(
-        (printed - truth).abs() > 1e-3,
-        "the printed {printed} is not wrong: {truth}"
-    );
+    assert!((printed - truth).abs() > 1e-3, "the printed {printed} is not wrong: {truth}");
 }
 
 #[test]
@@ -78,14 +64,8 @@ fn equation_8_rows_4_and_5_column_1_are_scaled_by_s_over_l() {
     shows(3, 0, -DELTA.sin());
     shows(4, 0, -DELTA.cos());
     let tip = arc(LENGTH, THETA_L, DELTA).jacobian(LENGTH).to_rows();
-    assert!(
-        (tip[3][0] + DELTA.sin()).abs() < 1e-15,
-        "equal at s = L only"
-    );
-    assert!(
-        (tip[4][0] + DELTA.cos()).abs() < 1e-15,
-        "equal at s = L only"
-    );
+    assert!((tip[3][0] + DELTA.sin()).abs() < 1e-15, "equal at s = L only");
+    assert!((tip[4][0] + DELTA.cos()).abs() < 1e-15, "equal at s = L only");
 }
 
 #[test]
@@ -95,10 +75,7 @@ fn equation_8_rows_4_to_6_column_2_have_sine_and_cosine_swapped() {
     shows(4, 1, -DELTA.sin() * sin);
     shows(5, 1, cos - 1.0);
     // A straight segment does not turn when δ changes; the printed column says it does.
-    let straight = arc(LENGTH, FRAC_PI_2, DELTA)
-        .jacobian(LENGTH)
-        .delta()
-        .angular;
+    let straight = arc(LENGTH, FRAC_PI_2, DELTA).jacobian(LENGTH).delta().angular;
     assert!(straight.norm() < 1e-15);
     assert!((DELTA.cos() * FRAC_PI_2.sin()).abs() > 0.5);
 }
@@ -111,18 +88,11 @@ fn equation_12_takes_j_q_psi_transposed() {
     let configuration = Configuration::from_theta_l(THETA_L, DELTA);
     let gradient = segment.energy_gradient(&configuration);
     let tau = segment.forces_from_load(&configuration, &gradient);
-    assert!(
-        segment.residual(&configuration, &tau) < 1e-15 * 1e3,
-        "ours vanishes in balance"
-    );
+    assert!(segment.residual(&configuration, &tau) < 1e-15 * 1e3, "ours vanishes in balance");
     let j = nalgebra::Matrix3x2::from_fn(|i, k| joint_jacobian(0.003, &configuration)[i][k]);
     let j_psi_q = (j.transpose() * j).try_inverse().expect("bent") * j.transpose();
     let printed = j_psi_q * tau - nalgebra::Vector2::new(gradient.theta_l, gradient.delta());
-    assert!(
-        printed.norm() > 1.0,
-        "the printed residual does not vanish in balance: {}",
-        printed.norm()
-    );
+    assert!(printed.norm() > 1.0, "the printed residual does not vanish in balance: {}", printed.norm());
 }
 
 #[test]
@@ -130,9 +100,7 @@ fn equation_16_is_no_bound_for_independent_errors() {
     let segment = segment(LENGTH, 0.003);
     let configuration = Configuration::from_theta_l(THETA_L, DELTA);
     let epsilon = 0.1;
-    let tau = segment
-        .forces_from_load(&configuration, &segment.energy_gradient(&configuration))
-        .add_scalar(60.0);
+    let tau = segment.forces_from_load(&configuration, &segment.energy_gradient(&configuration)).add_scalar(60.0);
 
     // One error common to the cells: Θ equals Eq. 16.
     let tau_lc = tau / (1.0 - epsilon);
@@ -144,7 +112,5 @@ fn equation_16_is_no_bound_for_independent_errors() {
     let tau_lc = Vec3::from_fn(|i, _| tau[i] / (1.0 - [epsilon, -epsilon, epsilon][i]));
     let theta = segment.residual(&configuration, &tau_lc);
     assert!(theta > 1.5 * segment.common_error_bound(&configuration, &tau_lc, epsilon));
-    assert!(
-        theta <= segment.independent_error_bound(&configuration, &tau_lc, epsilon) * (1.0 + 1e-12)
-    );
+    assert!(theta <= segment.independent_error_bound(&configuration, &tau_lc, epsilon) * (1.0 + 1e-12));
 }

@@ -231,19 +231,8 @@ fn nothing_jumps_where_a_formula_switches() {
             let mut all = pose.position.as_slice().to_vec();
             all.extend_from_slice(pose.rotation.as_slice());
             all.extend_from_slice(jacobian.to_rows().as_flattened());
-            for rate in [
-                Rate {
-                    theta_l: -1.0,
-                    delta: 0.0,
-                },
-                Rate {
-                    theta_l: 0.0,
-                    delta: 1.0,
-                },
-            ] {
-                let centrode = tip_jacobian
-                    .centrode(&tip.position, rate)
-                    .expect("it moves");
+            for rate in [Rate { theta_l: -1.0, delta: 0.0 }, Rate { theta_l: 0.0, delta: 1.0 }] {
+                let centrode = tip_jacobian.centrode(&tip.position, rate).expect("it moves");
                 all.extend_from_slice(centrode.as_slice());
             }
             all
@@ -254,25 +243,15 @@ fn nothing_jumps_where_a_formula_switches() {
     }
     let held = Constrained::new(LENGTH, 0.012, 0.6, Configuration::new(1.1, 0.4));
     let (below, above) = (held.pose(0.012), held.pose(0.012 + 1e-17));
-    assert_near(
-        &below.position,
-        &above.position,
-        1e-16,
-        "across the contact",
-    );
+    assert_near(&below.position, &above.position, 1e-16, "across the contact");
 }
 
 /// At the straight segment the centrode of a motion in δ alone is a limit; it must be the one of small bends.
 #[test]
 fn a_turn_of_the_bending_plane_has_its_limit_when_straight() {
-    let rate = Rate {
-        theta_l: 0.0,
-        delta: 1.0,
-    };
+    let rate = Rate { theta_l: 0.0, delta: 1.0 };
     let at = |bend: f64| {
-        let (tip, jacobian) = segment(LENGTH, PITCH)
-            .arc(Configuration::new(bend, 0.4))
-            .pose_and_jacobian(LENGTH);
+        let (tip, jacobian) = segment(LENGTH, PITCH).arc(Configuration::new(bend, 0.4)).pose_and_jacobian(LENGTH);
         jacobian.centrode(&tip.position, rate).expect("it moves")
     };
     assert_near(&at(0.0), &at(1e-9), 1e-9 * LENGTH, "limit");

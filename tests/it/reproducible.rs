@@ -15,10 +15,7 @@ fn a_scenario_has_one_fingerprint() {
 #[test]
 fn a_seed_changes_the_fingerprint_only_where_there_is_noise() {
     let fingerprint = |seed, noise| {
-        let mut scenario = Scenario {
-            seed,
-            ..Scenario::default()
-        };
+        let mut scenario = Scenario { seed, ..Scenario::default() };
         scenario.tracker.position_noise = noise;
         simulate(&scenario).expect("valid").fingerprint()
     };

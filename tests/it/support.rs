@@ -6,19 +6,11 @@ use std::f64::consts::FRAC_PI_2;
 
 /// A segment with the reference's names.
 pub fn segment(length: f64, pitch_radius: f64) -> Segment {
-    Segment {
-        length,
-        pitch_radius,
-        ep_ip: 0.0013,
-        es_is: 0.00087,
-    }
+    Segment { length, pitch_radius, ep_ip: 0.0013, es_is: 0.00087 }
 }
 
 pub fn arc(length: f64, theta_l: f64, delta: f64) -> Arc {
-    Arc {
-        length,
-        configuration: Configuration::from_theta_l(theta_l, delta),
-    }
+    Arc { length, configuration: Configuration::from_theta_l(theta_l, delta) }
 }
 
 /// Eq. 3 as printed (it is right), in dual numbers: the pose from which derivatives are taken.
@@ -27,11 +19,7 @@ pub fn position(theta_l: Dual64, delta: Dual64, s: f64, length: f64) -> [Dual64;
     let theta_s = bend * (s / length) + FRAC_PI_2;
     let scale = bend.recip() * length;
     let across = scale * (theta_s.sin() - 1.0);
-    [
-        delta.cos() * across,
-        -delta.sin() * across,
-        -scale * theta_s.cos(),
-    ]
+    [delta.cos() * across, -delta.sin() * across, -scale * theta_s.cos()]
 }
 
 /// Eq. 4, row by row.
@@ -46,9 +34,7 @@ pub fn rotation(theta_l: Dual64, delta: Dual64, s: f64, length: f64) -> [[Dual64
 }
 
 fn multiply(a: &[[Dual64; 3]; 3], b: &[[Dual64; 3]; 3]) -> [[Dual64; 3]; 3] {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j])
-    })
+    std::array::from_fn(|i| std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j]))
 }
 
 /// Rotation about z.
@@ -59,8 +45,5 @@ pub fn about_z(angle: f64) -> Mat3 {
 
 pub fn assert_near(ours: &Vec3, reference: &Vec3, tolerance: f64, what: &str) {
     let error = (ours - reference).amax();
-    assert!(
-        error <= tolerance,
-        "{what}: off by {error:e} of {tolerance:e}\n{ours}{reference}"
-    );
+    assert!(error <= tolerance, "{what}: off by {error:e} of {tolerance:e}\n{ours}{reference}");
 }
