@@ -23,7 +23,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     side.zoom(1.9);
     let mut version = 0;
     for (theme, palette) in [("light", Palette::LIGHT), ("dark", Palette::DARK)] {
-        for (name, camera, degrees) in [("home", home, 75.0_f32), ("near", side, 75.0), ("straight", home, 0.001)] {
+        for (name, camera, degrees) in [
+            ("home", home, 75.0_f32),
+            ("near", side, 75.0),
+            ("straight", home, 0.001),
+        ] {
             version += 1;
             let scene = demo::scene(&palette, degrees.to_radians());
             let start = std::time::Instant::now();

@@ -151,13 +151,29 @@ mod tests {
         let scene = demo::scene(&Palette::LIGHT, 1.3);
         let mut batch = Batch::default();
         batch.fill(&scene);
-        let first = (batch.mesh.indices.clone(), batch.pieces.len(), batch.signs.len());
+        let first = (
+            batch.mesh.indices.clone(),
+            batch.pieces.len(),
+            batch.signs.len(),
+        );
         assert!(0 < batch.opaque && batch.opaque < batch.casting);
         assert!(batch.casting < batch.mesh.indices.len() as u32);
         assert_eq!(batch.parts.first().unwrap().indices.start, batch.opaque);
-        assert!(batch.parts.windows(2).all(|w| w[0].indices.end == w[1].indices.start));
+        assert!(
+            batch
+                .parts
+                .windows(2)
+                .all(|w| w[0].indices.end == w[1].indices.start)
+        );
         batch.fill(&scene);
-        assert_eq!(first, (batch.mesh.indices.clone(), batch.pieces.len(), batch.signs.len()));
+        assert_eq!(
+            first,
+            (
+                batch.mesh.indices.clone(),
+                batch.pieces.len(),
+                batch.signs.len()
+            )
+        );
         let casters = batch.casters.unwrap();
         assert!(casters.radius > 0.01 && casters.radius < 0.05);
     }
@@ -168,9 +184,12 @@ mod tests {
         batch.fill(&demo::scene(&Palette::LIGHT, 1.3));
         let eye = Vec3::new(0.05, -0.1, 0.04);
         batch.sort(eye);
-        assert!(batch.parts.windows(2).all(|w| {
-            w[0].center.distance(eye) >= w[1].center.distance(eye)
-        }));
+        assert!(
+            batch
+                .parts
+                .windows(2)
+                .all(|w| { w[0].center.distance(eye) >= w[1].center.distance(eye) })
+        );
     }
 
     #[test]

@@ -21,8 +21,8 @@ mod view;
 
 use std::collections::HashMap;
 
-pub use pipelines::SHADERS;
 use pipelines::Pipelines;
+pub use pipelines::SHADERS;
 use view::View;
 
 use crate::scene::{Camera, Scene, Studio};

@@ -153,7 +153,10 @@ mod tests {
     #[test]
     fn a_gap_parts_a_line() {
         let gap = Vec3::new(f32::NAN, 0.0, 0.0);
-        assert_eq!(pieces(vec![Vec3::ZERO, Vec3::X, gap, Vec3::Y, Vec3::Z]).len(), 2);
+        assert_eq!(
+            pieces(vec![Vec3::ZERO, Vec3::X, gap, Vec3::Y, Vec3::Z]).len(),
+            2
+        );
         assert!(pieces(vec![]).is_empty() && pieces(vec![Vec3::X]).is_empty());
     }
 }

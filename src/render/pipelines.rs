@@ -257,10 +257,7 @@ fn scene_pipeline(device: &wgpu::Device, kind: &Kind<'_>) -> wgpu::RenderPipelin
     })
 }
 
-fn shadow_pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-) -> wgpu::RenderPipeline {
+fn shadow_pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
     let module = module(device, "shadow", SHADOW);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shadow"),
@@ -367,10 +364,7 @@ fn blit_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn texture_entry(
-    binding: u32,
-    sample_type: wgpu::TextureSampleType,
-) -> wgpu::BindGroupLayoutEntry {
+fn texture_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::FRAGMENT,

@@ -83,7 +83,9 @@ impl Target {
 pub(super) fn fitting(asked: [u32; 2], max_side: u32) -> ([u32; 2], f32) {
     let [w, h] = asked.map(|v| f64::from(v.max(1)));
     let max_side = f64::from(max_side.max(1));
-    let scale = (max_side / w.max(h)).min((MAX_PIXELS / (w * h)).sqrt()).min(1.0);
+    let scale = (max_side / w.max(h))
+        .min((MAX_PIXELS / (w * h)).sqrt())
+        .min(1.0);
     let side = |v: f64| (v * scale).floor().clamp(1.0, max_side) as u32;
     ([side(w), side(h)], scale as f32)
 }

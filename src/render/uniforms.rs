@@ -34,7 +34,7 @@ const _: () = assert!(size_of::<Globals>() == 2 * 64 + 14 * 16 + 4 * 16);
 /// Edge of the shadow map, in texels.
 pub(super) const SHADOW_TEXELS: u32 = 1024;
 /// Radius over which shadows on the floor are averaged, in m.
-const GROUND_SOFTNESS: f32 = 0.0011;
+const GROUND_SOFTNESS: f32 = 0.0017;
 /// The same on bodies.
 const BODY_SOFTNESS: f32 = 0.00022;
 

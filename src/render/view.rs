@@ -258,8 +258,16 @@ impl View {
             }
         }
         let overlays = [
-            (&self.pieces, self.batch.pieces.len(), [&pipelines.line_hidden, &pipelines.line]),
-            (&self.signs, self.batch.signs.len(), [&pipelines.marker_hidden, &pipelines.marker]),
+            (
+                &self.pieces,
+                self.batch.pieces.len(),
+                [&pipelines.line_hidden, &pipelines.line],
+            ),
+            (
+                &self.signs,
+                self.batch.signs.len(),
+                [&pipelines.marker_hidden, &pipelines.marker],
+            ),
         ];
         for (buffer, count, passes) in overlays {
             if let Some(instances) = buffer.slice() {

@@ -42,6 +42,19 @@ pub fn frames(start: Pose, length: f32, count: usize, shape: impl Fn(f32) -> Pos
         .collect()
 }
 
+/// The frames with one more at each end, `before` and `after` m straight on along z: so that a backbone shows on the
+/// far side of its end disks.
+pub fn extended(frames: &[Pose], before: f32, after: f32) -> Vec<Pose> {
+    let on = |f: &Pose, by: f32| Pose::new(f.point(Vec3::Z * by), f.rotation);
+    let first = frames.first().map(|f| on(f, -before));
+    let last = frames.last().map(|f| on(f, after));
+    first
+        .into_iter()
+        .chain(frames.iter().copied())
+        .chain(last)
+        .collect()
+}
+
 /// The line that a fixed point of the moving frame's x–y plane draws.
 pub fn offset(frames: &[Pose], at: Vec2) -> Vec<Vec3> {
     frames.iter().map(|f| f.point(at.extend(0.0))).collect()
@@ -111,6 +124,17 @@ mod tests {
             let q = -r * (delta + TAU * i as f32 / 3.0).cos() * bend;
             assert!((length - (L + q)).abs() < 2e-5, "{i}: {length} {q}");
         }
+    }
+
+    #[test]
+    fn extending_goes_straight_on() {
+        let path = frames(Pose::IDENTITY, L, 4, |s| circular(L, FRAC_PI_2, 0.0, s));
+        let longer = extended(&path, 0.001, 0.002);
+        assert_eq!(longer.len(), path.len() + 2);
+        assert!((longer[0].position - Vec3::Z * -0.001).length() < 1e-9);
+        let on = longer[6].position - longer[5].position;
+        assert!((on - Vec3::X * 0.002).length() < 1e-8);
+        assert!(extended(&[], 1.0, 1.0).is_empty());
     }
 
     #[test]

@@ -39,6 +39,8 @@ pub struct Ray {
     pub direction: Vec3,
 }
 
+/// Distance at which a segment of 30 mm and its floor fill the view, in m.
+const HOME: f32 = 0.092;
 /// Pitch stops short of the pole, where yaw would have no meaning.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.02;
 /// Just under the floor: enough to see a disk from below.
@@ -51,7 +53,7 @@ const PAN: f32 = 1.5;
 impl Default for Camera {
     /// For a segment of 30 mm that bends toward +x.
     fn default() -> Self {
-        Self::looking_at(Vec3::new(0.0065, 0.0, 0.0135), 0.105, -1.92, 0.33)
+        Self::looking_at(Vec3::new(0.0075, 0.0, 0.0125), HOME, -1.22, 0.30)
     }
 }
 
@@ -115,10 +117,8 @@ impl Camera {
     /// Comes nearer by `factor` (above 1) or goes back (below 1).
     pub fn zoom(&mut self, factor: f32) {
         if factor.is_finite() && factor > 0.0 {
-            self.distance = (self.distance / factor).clamp(
-                ZOOM.0 * self.home.distance,
-                ZOOM.1 * self.home.distance,
-            );
+            self.distance = (self.distance / factor)
+                .clamp(ZOOM.0 * self.home.distance, ZOOM.1 * self.home.distance);
         }
     }
 
@@ -279,9 +279,9 @@ mod tests {
         camera.orbit(Vec2::new(0.0, -1e6));
         assert!(camera.pitch >= MIN_PITCH);
         camera.zoom(1e9);
-        assert!(camera.distance >= 0.1 * 0.105);
+        assert!(camera.distance >= 0.1 * HOME);
         camera.zoom(1e-9);
-        assert!(camera.distance <= 7.0 * 0.105);
+        assert!(camera.distance <= 7.0 * HOME);
         camera.zoom(f32::NAN);
         camera.orbit(Vec2::NAN);
         camera.pan(Vec2::new(1e9, 1e9), SIZE);

@@ -99,7 +99,10 @@ mod tests {
     #[test]
     fn hex_and_bytes_agree() {
         assert_eq!(Color::hex(0x0072B2).to_bytes(), [0x00, 0x72, 0xB2, 0xFF]);
-        assert_eq!(Color::rgba(2.0, -1.0, f32::NAN, 0.5).to_bytes(), [255, 0, 0, 128]);
+        assert_eq!(
+            Color::rgba(2.0, -1.0, f32::NAN, 0.5).to_bytes(),
+            [255, 0, 0, 128]
+        );
     }
 
     #[test]

@@ -12,6 +12,8 @@ const PITCH: f32 = 0.003;
 const RADIUS: f32 = 0.0042;
 const SPACERS: [f32; 3] = [0.0075, 0.015, 0.0225];
 const CONTACT: f32 = 0.015;
+/// Height of the floor.
+const FLOOR: f32 = -0.0026;
 
 /// A segment of 30 mm that has met a beam at its middle disk and bends on by `bend` rad in all.
 pub fn scene(palette: &Palette, bend: f32) -> Scene {
@@ -56,14 +58,14 @@ pub fn scene(palette: &Palette, bend: f32) -> Scene {
         color: palette.detection,
     });
     scene.ground = Some(Ground {
-        center: Vec3::new(0.004, 0.0, -0.0026),
+        center: Vec3::new(0.004, 0.0, FLOOR),
         radius: 0.062,
         spacing: 0.005,
         major: 2,
         line: palette.grid,
         glow: palette.glow,
         shadow: palette.ground_shadow,
-        contacts: vec![[0.0, 0.0, 0.0075, 0.5]],
+        contacts: vec![[0.0, 0.0, 0.0078, 0.45]],
     });
     scene
 }
@@ -78,6 +80,7 @@ fn holes(radius: f32) -> Vec<Hole> {
 
 fn robot(scene: &mut Scene, palette: &Palette, shape: impl Fn(f32) -> Pose) {
     let frames = arc::frames(Pose::IDENTITY, LENGTH, 48, &shape);
+    let frames = arc::extended(&frames, 0.0, 0.0011);
     let tube = |path, radius, color| Tube {
         path,
         radius,
@@ -132,13 +135,15 @@ fn ghost(scene: &mut Scene, palette: &Palette, shape: impl Fn(f32) -> Pose) {
         scene.tubes.push(Tube {
             path: arc::offset(&frames, arc::pitch_point(PITCH, i, 3)),
             radius: 0.00032,
-            color: palette.model.alpha(0.32),
+            color: palette.model.alpha(0.45),
             finish: Finish::Ghost,
             cap: Cap::None,
         });
     }
     let line = |path, width| Line::new(path, width, palette.model.alpha(0.85)).through(0.2);
-    scene.lines.push(line(arc::offset(&frames, Vec2::ZERO), 1.75).dashed(0.0016, 0.6));
+    scene
+        .lines
+        .push(line(arc::offset(&frames, Vec2::ZERO), 1.75).dashed(0.0016, 0.6));
     for s in SPACERS.into_iter().chain([LENGTH]) {
         scene
             .lines
@@ -146,18 +151,24 @@ fn ghost(scene: &mut Scene, palette: &Palette, shape: impl Fn(f32) -> Pose) {
     }
 }
 
+/// The beam comes from behind, where a post carries it, and ends a little in front of the robot.
 fn beam(scene: &mut Scene, palette: &Palette, at: Pose) {
-    let half = Vec3::new(0.0016, 0.013, 0.0016);
-    scene.blocks.push(Block {
-        pose: Pose::new(
-            at.point(Vec3::new(RADIUS + half.x, 0.0, 0.0)),
-            at.rotation,
-        ),
+    let half = Vec3::new(0.0013, 0.0125, 0.0013);
+    let middle = at.point(Vec3::new(RADIUS + half.x, 0.007, 0.0));
+    let block = |position, rotation, half| Block {
+        pose: Pose::new(position, rotation),
         solid: Solid::Box { half },
         bevel: 0.0003,
         color: palette.stone,
         finish: Finish::Matte,
-    });
+    };
+    scene.blocks.push(block(middle, at.rotation, half));
+    let height = middle.z - FLOOR;
+    scene.blocks.push(block(
+        Vec3::new(middle.x, 0.0179, FLOOR + 0.5 * height),
+        Quat::IDENTITY,
+        Vec3::new(0.0019, 0.0019, 0.5 * height + 0.0022),
+    ));
 }
 
 fn loci(scene: &mut Scene, palette: &Palette, bend: f32) {
@@ -177,8 +188,9 @@ fn loci(scene: &mut Scene, palette: &Palette, bend: f32) {
         scene
             .lines
             .push(Line::new(path.clone(), 1.0, color.alpha(0.6)).through(0.2));
-        scene.markers.extend(path.into_iter().map(|p| {
-            Marker::new(p, shape, 9.0, color).outlined(palette.halo, 1.25)
-        }));
+        scene.markers.extend(
+            path.into_iter()
+                .map(|p| Marker::new(p, shape, 9.0, color).outlined(palette.halo, 1.25)),
+        );
     }
 }

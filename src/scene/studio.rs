@@ -36,7 +36,7 @@ impl Studio {
         key: 0.78,
         fill: 0.20,
         sky: Color::hex(0xA9B2BD),
-        floor: Color::hex(0x8D8A86),
+        floor: Color::hex(0x9A9895),
         rim: 0.10,
         shadow: 0.55,
     };
@@ -48,8 +48,8 @@ impl Studio {
         key_from: Vec3::new(-0.55, -0.75, 1.35),
         key: 0.85,
         fill: 0.16,
-        sky: Color::hex(0x77818E),
-        floor: Color::hex(0x4A4C52),
+        sky: Color::hex(0x808A97),
+        floor: Color::hex(0x595C63),
         rim: 0.30,
         shadow: 0.65,
     };

@@ -19,13 +19,12 @@ impl Gpu {
         let adapter =
             pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
                 .expect("a Vulkan or OpenGL adapter (mesa-vulkan-drivers)");
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-                label: Some("test"),
-                required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
-                ..Default::default()
-            }))
-            .expect("a device with WebGL2's limits");
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("test"),
+            required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
+            ..Default::default()
+        }))
+        .expect("a device with WebGL2's limits");
         Self { device, queue }
     }
 }
@@ -120,7 +119,9 @@ pub fn render(
         texture.size(),
     );
     queue.submit([encoder.finish()]);
-    readback.slice(..).map_async(wgpu::MapMode::Read, |r| r.expect("mapped"));
+    readback
+        .slice(..)
+        .map_async(wgpu::MapMode::Read, |r| r.expect("mapped"));
     device
         .poll(wgpu::PollType::wait_indefinitely())
         .expect("the GPU finishes");

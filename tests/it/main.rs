@@ -1,1 +1,8 @@
 //! Integration tests.
+
+#[cfg(feature = "app")]
+mod gpu;
+#[cfg(feature = "app")]
+mod render;
+#[cfg(feature = "app")]
+mod shaders;

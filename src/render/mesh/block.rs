@@ -77,11 +77,19 @@ fn rounded_box(sink: &mut Sink<'_>, half: Vec3, bevel: f32) {
 fn stations(inner: f32, bevel: f32, steps: u32) -> Vec<f32> {
     let edge: Vec<f32> = (0..=steps)
         .map(|i| {
-            let t = if steps == 0 { 0.0 } else { i as f32 / steps as f32 };
+            let t = if steps == 0 {
+                0.0
+            } else {
+                i as f32 / steps as f32
+            };
             inner + bevel * (t * std::f32::consts::FRAC_PI_4).tan()
         })
         .collect();
-    edge.iter().rev().map(|x| -x).chain(edge.iter().copied()).collect()
+    edge.iter()
+        .rev()
+        .map(|x| -x)
+        .chain(edge.iter().copied())
+        .collect()
 }
 
 #[cfg(test)]

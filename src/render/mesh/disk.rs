@@ -61,7 +61,10 @@ impl Plate {
             radius,
             asked: asked.to_vec(),
             triangles: triangulate(&outer, &inner),
-            corners: outer.into_iter().chain(inner.into_iter().flatten()).collect(),
+            corners: outer
+                .into_iter()
+                .chain(inner.into_iter().flatten())
+                .collect(),
             holes,
             used: false,
         }
@@ -92,9 +95,28 @@ pub(in crate::render) fn disk(mesh: &mut Mesh, plates: &mut Plates, disk: &Disk)
     let bevel = (0.22 * disk.thickness).min(0.1 * disk.radius);
     let face = disk.radius - bevel;
     let mut sink = Sink::new(mesh, disk.pose, Paint::new(disk.color, disk.finish));
-    sink.lathe(&rounded_rim(disk.radius, half, bevel), SIDES);
-
     let plate = plates.get(face, &disk.holes);
+
+    // The walls of the holes first: in a translucent disk the faces then lie over them.
+    for hole in &plate.holes {
+        let mut last = None;
+        for z in [-half, half] {
+            let row = sink.next();
+            for i in 0..=HOLE_SIDES {
+                // The same directions as the face's corners, so that no crack opens.
+                let out = Vec2::from_angle(-angle(i, HOLE_SIDES));
+                sink.vertex(
+                    (hole.center + out * hole.radius).extend(z),
+                    (-out).extend(0.0),
+                );
+            }
+            if let Some(last) = last {
+                sink.band(last, row, HOLE_SIDES);
+            }
+            last = Some(row);
+        }
+    }
+    sink.lathe(&rounded_rim(disk.radius, half, bevel), SIDES);
     for up in [1.0, -1.0] {
         let start = sink.next();
         for corner in &plate.corners {
@@ -103,21 +125,6 @@ pub(in crate::render) fn disk(mesh: &mut Mesh, plates: &mut Plates, disk: &Disk)
         for &[a, b, c] in &plate.triangles {
             let [a, b, c] = if up > 0.0 { [a, b, c] } else { [a, c, b] };
             sink.triangle([start + a, start + b, start + c]);
-        }
-    }
-    for hole in &plate.holes {
-        let mut last = None;
-        for z in [-half, half] {
-            let row = sink.next();
-            for i in 0..=HOLE_SIDES {
-                // The same directions as the face's corners, so that no crack opens.
-                let out = Vec2::from_angle(-angle(i, HOLE_SIDES));
-                sink.vertex((hole.center + out * hole.radius).extend(z), (-out).extend(0.0));
-            }
-            if let Some(last) = last {
-                sink.band(last, row, HOLE_SIDES);
-            }
-            last = Some(row);
         }
     }
 }

@@ -170,7 +170,8 @@ pub(super) mod check {
         let mut edges: HashMap<_, i32> = HashMap::new();
         let mut backward = 0;
         for t in mesh.indices.chunks_exact(3) {
-            let [a, b, c] = [t[0], t[1], t[2]].map(|i| Vec3::from(mesh.vertices[i as usize].position));
+            let [a, b, c] =
+                [t[0], t[1], t[2]].map(|i| Vec3::from(mesh.vertices[i as usize].position));
             let face = (b - a).cross(c - a);
             let normal: Vec3 = t
                 .iter()

@@ -129,7 +129,11 @@ mod tests {
                 let at = Vec2::from_angle(TAU * i as f32 / count as f32) * 3.0;
                 holes.push(circle(at, 0.6, 24, -1.0));
             }
-            let points: Vec<Vec2> = outer.iter().chain(holes.iter().flatten()).copied().collect();
+            let points: Vec<Vec2> = outer
+                .iter()
+                .chain(holes.iter().flatten())
+                .copied()
+                .collect();
             let expected = area(&outer) + holes.iter().map(|h| area(h)).sum::<f32>();
             let mut sum = 0.0;
             for [a, b, c] in triangulate(&outer, &holes) {

@@ -148,19 +148,39 @@ mod tests {
         odd.path.insert(7, odd.path[6]);
         let mut mesh = Mesh::default();
         tube(&mut mesh, &odd);
-        assert!(mesh.vertices.iter().all(|v| v.position.iter().chain(&v.normal).all(|x| x.is_finite())));
+        assert!(
+            mesh.vertices
+                .iter()
+                .all(|v| v.position.iter().chain(&v.normal).all(|x| x.is_finite()))
+        );
         assert!(!mesh.indices.is_empty());
 
         // A path that turns back on itself must not give NaN.
         odd.path = vec![Vec3::ZERO, Vec3::Z, Vec3::ZERO];
         tube(&mut mesh, &odd);
-        assert!(mesh.vertices.iter().all(|v| v.normal.iter().all(|x| x.is_finite())));
+        assert!(
+            mesh.vertices
+                .iter()
+                .all(|v| v.normal.iter().all(|x| x.is_finite()))
+        );
 
         let mut mesh = Mesh::default();
         for path in [vec![], vec![Vec3::ONE], vec![Vec3::ONE; 5]] {
-            tube(&mut mesh, &Tube { path, ..bent(Cap::Round) });
+            tube(
+                &mut mesh,
+                &Tube {
+                    path,
+                    ..bent(Cap::Round)
+                },
+            );
         }
-        tube(&mut mesh, &Tube { radius: f32::NAN, ..bent(Cap::Flat) });
+        tube(
+            &mut mesh,
+            &Tube {
+                radius: f32::NAN,
+                ..bent(Cap::Flat)
+            },
+        );
         assert!(mesh.vertices.is_empty());
     }
 }
