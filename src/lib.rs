@@ -24,3 +24,6 @@
 pub mod cli;
 pub mod experiment;
 pub mod model;
+#[cfg(feature = "app")]
+pub mod render;
+pub mod scene;
