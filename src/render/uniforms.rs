@@ -66,6 +66,10 @@ impl Globals {
         let back = camera.backward();
         let fill = (back * 0.7 - right * 0.9 + up * 0.25).normalize();
 
+        // A surface must not fall into its own shadow, over the width that is averaged.
+        let stand_off = casters.map_or(0.0, |ball| {
+            3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * BODY_SOFTNESS
+        });
         let (light, shadow) = match casters {
             Some(ball) => (
                 light_from_scene(key, ball),
@@ -83,7 +87,7 @@ impl Globals {
             clip_from_scene: camera.view_projection(size).to_cols_array_2d(),
             light_from_scene: light.to_cols_array_2d(),
             eye: camera.eye(size).extend(0.0).to_array(),
-            viewport: [size.x, size.y, pixels_per_point, 0.0],
+            viewport: [size.x, size.y, pixels_per_point, stand_off],
             key: key.extend(studio.key).to_array(),
             fill: fill.extend(studio.fill).to_array(),
             rim: back.extend(studio.rim).to_array(),

@@ -27,6 +27,17 @@ pub fn scene(palette: &Palette, bend: f32) -> Scene {
     };
     let free = move |s: f32| arc::circular(LENGTH, bend, 0.0, s);
 
+    scene.ground = Some(Ground {
+        center: Vec3::new(0.004, 0.0, FLOOR),
+        radius: 0.062,
+        spacing: 0.005,
+        major: 2,
+        line: palette.grid,
+        glow: palette.glow,
+        shadow: palette.ground_shadow,
+        contacts: vec![[0.0, 0.0, 0.0078, 0.45]],
+    });
+
     robot(&mut scene, palette, shape);
     ghost(&mut scene, palette, free);
     beam(&mut scene, palette, at_contact);
@@ -48,16 +59,6 @@ pub fn scene(palette: &Palette, bend: f32) -> Scene {
         offset: Vec2::new(-14.0, -14.0),
         text: "contact".to_owned(),
         color: palette.detection,
-    });
-    scene.ground = Some(Ground {
-        center: Vec3::new(0.004, 0.0, FLOOR),
-        radius: 0.062,
-        spacing: 0.005,
-        major: 2,
-        line: palette.grid,
-        glow: palette.glow,
-        shadow: palette.ground_shadow,
-        contacts: vec![[0.0, 0.0, 0.0078, 0.45]],
     });
     scene
 }
@@ -132,12 +133,16 @@ fn beam(scene: &mut Scene, palette: &Palette, at: Pose) {
         finish: Finish::Matte,
     };
     scene.blocks.push(block(middle, at.rotation, half));
-    let height = middle.z - FLOOR;
+    let post = Vec2::new(middle.x, 0.0174);
+    let half_height = 0.5 * (middle.z + 0.0021 - FLOOR);
     scene.blocks.push(block(
-        Vec3::new(middle.x, 0.0179, FLOOR + 0.5 * height),
+        post.extend(FLOOR + half_height),
         Quat::IDENTITY,
-        Vec3::new(0.0019, 0.0019, 0.5 * height + 0.0022),
+        Vec3::new(0.0016, 0.0016, half_height),
     ));
+    if let Some(ground) = &mut scene.ground {
+        ground.contacts.push([post.x, post.y, 0.0028, 0.4]);
+    }
 }
 
 fn loci(scene: &mut Scene, palette: &Palette, bend: f32) {

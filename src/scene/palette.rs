@@ -54,7 +54,7 @@ impl Palette {
         steel_primary: Color::hex(0xF0F2F5),
         disk: Color::hex(0xAEBBC8),
         mark: Color::hex(0x39424E),
-        stone: Color::hex(0x5D5850),
+        stone: Color::hex(0x69635A),
         ink: Color::hex(0x1D232B),
         ink_dim: Color::hex(0x66707C),
         halo: Color::hex(0xFFFFFF),

@@ -272,6 +272,13 @@ impl Marker {
         self
     }
 
+    /// Seen through opaque things with this opacity factor.
+    #[must_use]
+    pub const fn through(mut self, opacity: f32) -> Self {
+        self.through = opacity;
+        self
+    }
+
     /// With this opacity.
     #[must_use]
     pub const fn faded(mut self, opacity: f32) -> Self {

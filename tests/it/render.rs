@@ -216,10 +216,10 @@ fn bodies_throw_a_shadow_on_the_floor() {
         }),
         ..Default::default()
     };
-    let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 0.8);
+    let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 1.4);
     let studio = flat(Color::WHITE);
-    // The light comes from −x −y, so the shadow lies toward +x +y.
-    let (in_shadow, in_light) = (Vec3::new(0.3, 0.15, 0.0), Vec3::new(-0.6, -0.2, 0.0));
+    // The light comes from the front right, so the shadow lies behind to the left.
+    let (in_shadow, in_light) = (Vec3::new(-0.29, 0.1, 0.0), Vec3::new(0.6, -0.2, 0.0));
     let picture = shown(&scene, &camera, &studio);
     assert!(at(&picture, &camera, in_shadow)[1] < 120);
     assert!(at(&picture, &camera, in_light)[1] > 240);

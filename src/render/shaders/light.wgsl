@@ -32,7 +32,7 @@ fn lit(position: vec3<f32>, softness: f32, taps: i32, pixel: vec2<f32>) -> f32 {
 fn room(direction: vec3<f32>) -> vec3<f32> {
     let ceiling = smoothstep(-0.55, 0.45, direction.z);
     let ambient = mix(g.floor.rgb * 0.75, g.sky.rgb * 1.7, ceiling);
-    let key = smoothstep(0.10, 0.85, dot(direction, g.key.xyz)) * g.key.w * 1.35;
+    let key = smoothstep(0.10, 0.85, dot(direction, g.key.xyz)) * g.key.w * 1.2;
     let fill = smoothstep(0.30, 0.95, dot(direction, g.fill.xyz)) * g.fill.w * 2.4;
     return ambient + vec3<f32>(key + fill);
 }
@@ -55,7 +55,8 @@ fn shade(albedo: vec3<f32>, metal: f32, rough: f32, normal: vec3<f32>, view: vec
     let rim = g.rim.w * grazing * (0.5 + 0.5 * normal.z);
 
     let mirrored = room(reflect(-view, normal));
-    let tint = mix(albedo, vec3<f32>(1.0), grazing * 0.7);
+    // On a light background bright edges would be lost.
+    let tint = mix(albedo, vec3<f32>(1.0), grazing * min(1.0, 2.5 * g.rim.w));
     let polished = mirrored * tint * mix(0.8, 1.0, reach) + vec3<f32>(spark * g.key.w * 0.8);
     let dull = diffuse + vec3<f32>(spark * g.key.w * 0.22) + mirrored * grazing * (1.0 - rough) * 0.22;
     let color = mix(dull, mix(diffuse, polished, 0.78), metal) + vec3<f32>(rim);
