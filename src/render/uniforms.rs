@@ -67,9 +67,7 @@ impl Globals {
         let fill = (back * 0.7 - right * 0.9 + up * 0.25).normalize();
 
         // A surface must not fall into its own shadow, over the width that is averaged.
-        let stand_off = casters.map_or(0.0, |ball| {
-            3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * BODY_SOFTNESS
-        });
+        let stand_off = casters.map_or(0.0, |ball| 3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * BODY_SOFTNESS);
         let (light, shadow) = match casters {
             Some(ball) => (
                 light_from_scene(key, ball),

@@ -135,11 +135,7 @@ fn beam(scene: &mut Scene, palette: &Palette, at: Pose) {
     scene.blocks.push(block(middle, at.rotation, half));
     let post = Vec2::new(middle.x, 0.0174);
     let half_height = 0.5 * (middle.z + 0.0021 - FLOOR);
-    scene.blocks.push(block(
-        post.extend(FLOOR + half_height),
-        Quat::IDENTITY,
-        Vec3::new(0.0016, 0.0016, half_height),
-    ));
+    scene.blocks.push(block(post.extend(FLOOR + half_height), Quat::IDENTITY, Vec3::new(0.0016, 0.0016, half_height)));
     if let Some(ground) = &mut scene.ground {
         ground.contacts.push([post.x, post.y, 0.0028, 0.4]);
     }

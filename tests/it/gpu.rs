@@ -14,8 +14,7 @@ impl Gpu {
     pub fn new() -> Self {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
             // WGPU_BACKEND=gl runs the code path that WebGL2 takes.
-            backends: wgpu::Backends::from_env()
-                .unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::GL),
+            backends: wgpu::Backends::from_env().unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::GL),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
