@@ -1,0 +1,119 @@
+//! One colour per meaning, for a light and for a dark background.
+//!
+//! The four signal colours are Okabe and Ito's, which stay apart for colour-blind readers. On a dark background blue
+//! and vermilion are lifted toward white, as printed they would sink.
+
+use super::{Color, Studio};
+
+/// The colours of everything the views and plots name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Palette {
+    /// Background and light of the 3D view.
+    pub studio: Studio,
+    /// The model without constraint.
+    pub model: Color,
+    /// The model with the constraint.
+    pub constrained: Color,
+    /// What the sensor says.
+    pub sensor: Color,
+    /// A detection.
+    pub detection: Color,
+    /// Backbones.
+    pub steel: Color,
+    /// The primary backbone, a shade apart from the others.
+    pub steel_primary: Color,
+    /// Disks.
+    pub disk: Color,
+    /// The orientation mark on a disk.
+    pub mark: Color,
+    /// The obstacle.
+    pub stone: Color,
+    /// Text and thin lines over the background.
+    pub ink: Color,
+    /// The same, for what matters less.
+    pub ink_dim: Color,
+    /// Edge that parts a marker from what is behind it.
+    pub halo: Color,
+    /// Grid lines of the floor.
+    pub grid: Color,
+    /// Light on the floor.
+    pub glow: Color,
+    /// Darkness of the shadows on the floor, 0..1.
+    pub ground_shadow: f32,
+}
+
+impl Palette {
+    /// For a light background.
+    pub const LIGHT: Self = Self {
+        studio: Studio::LIGHT,
+        model: Color::hex(0x0072B2),
+        constrained: Color::hex(0xE69F00),
+        sensor: Color::hex(0x009E73),
+        detection: Color::hex(0xD55E00),
+        steel: Color::hex(0xC9D0D8),
+        steel_primary: Color::hex(0xE4E8EC),
+        disk: Color::hex(0xAEBBC8),
+        mark: Color::hex(0x39424E),
+        stone: Color::hex(0x5D5850),
+        ink: Color::hex(0x1D232B),
+        ink_dim: Color::hex(0x66707C),
+        halo: Color::hex(0xFFFFFF),
+        grid: Color::rgba(0.16, 0.22, 0.30, 0.26),
+        glow: Color::rgba(1.0, 1.0, 1.0, 0.0),
+        ground_shadow: 0.30,
+    };
+
+    /// For a dark background.
+    pub const DARK: Self = Self {
+        studio: Studio::DARK,
+        model: Color::hex(0x56A9DE),
+        constrained: Color::hex(0xF0B03A),
+        sensor: Color::hex(0x2BC495),
+        detection: Color::hex(0xFF7F3A),
+        steel: Color::hex(0xD3DAE2),
+        steel_primary: Color::hex(0xF0F3F6),
+        disk: Color::hex(0x93A6B8),
+        mark: Color::hex(0xE8EDF2),
+        stone: Color::hex(0x8C8477),
+        ink: Color::hex(0xE6EBF0),
+        ink_dim: Color::hex(0x93A0AE),
+        halo: Color::hex(0x14181D),
+        grid: Color::rgba(0.75, 0.84, 0.95, 0.17),
+        glow: Color::rgba(0.62, 0.72, 0.85, 0.10),
+        ground_shadow: 0.55,
+    };
+
+    /// The palette for a dark or a light theme.
+    pub const fn for_dark(dark: bool) -> Self {
+        if dark { Self::DARK } else { Self::LIGHT }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn signals_and_text_can_be_read() {
+        for palette in [Palette::LIGHT, Palette::DARK] {
+            for background in [palette.studio.inner, palette.studio.outer] {
+                assert!(palette.ink.contrast(background) > 12.0);
+                assert!(palette.ink_dim.contrast(background) > 4.0);
+                // Graphics, not text: WCAG asks for 3; amber on white cannot reach it and is told by its form and edge.
+                for signal in [palette.model, palette.sensor, palette.detection] {
+                    assert!(signal.contrast(background) > 2.9, "{signal:?}");
+                }
+                assert!(palette.constrained.contrast(background) > 1.9);
+            }
+        }
+    }
+
+    #[test]
+    fn light_signals_are_okabe_and_itos() {
+        let light = Palette::LIGHT;
+        assert_eq!(light.model, Color::hex(0x0072B2));
+        assert_eq!(light.constrained, Color::hex(0xE69F00));
+        assert_eq!(light.sensor, Color::hex(0x009E73));
+        assert_eq!(light.detection, Color::hex(0xD55E00));
+    }
+}
