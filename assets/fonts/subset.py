@@ -1,6 +1,6 @@
 """Cuts one weight of Inter down to what the page writes, with tabular figures made the default.
 
-usage: python3 subset.py Inter-Regular.otf Inter-Regular.otf.out
+usage: python3 subset.py Inter-Regular.otf out.otf
 """
 
 import sys
@@ -10,7 +10,7 @@ from fontTools.ttLib import TTFont
 
 # Latin with accents, Greek, and the signs of the page.
 UNICODES = [*range(0x20, 0x7F), *range(0xA0, 0x180), *range(0x370, 0x3D7)]
-SIGNS = "‐‑–—‘’“”„•…‰′″‖₀₁₂₃₄₅₆₇₈₉⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻₊₋€←↑→↓↔↦−∓∞≈≠≤≥×÷·√∂∆∑∫◂▸▲▼◀▶●○◆◇■□✓✕⌘⇧␣\u2009\u200a\u202f"
+SIGNS = "‐‑–—‘’“”„•…‰′″‖₀₁₂₃₄₅₆₇₈₉⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻₊₋€←↑→↓↔−∞≈≠≤≥×÷·√∂∆∑∫▲▼◀▶●○◆◇■□✓\u2009\u200a\u202f"
 
 source, target = sys.argv[1:]
 font = TTFont(source)
