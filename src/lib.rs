@@ -20,6 +20,8 @@
 //!
 //! Where the printed equations are wrong, `docs/MODEL.md` says how, and `tests/it/misprints.rs` shows it.
 
+#[cfg(feature = "app")]
+pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod experiment;

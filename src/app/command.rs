@@ -1,0 +1,58 @@
+//! What the interface asks for. Panels and views emit commands; [`super::App`] applies them, and nothing else does.
+
+use super::control::{Choice, Control};
+use super::state::Tab;
+use crate::experiment::Scenario;
+use crate::experiment::preset::Preset;
+use crate::experiment::scenario::Threshold;
+
+/// One wish.
+#[derive(Debug, Clone)]
+pub enum Command {
+    /// Put the cursor at a time, s.
+    Seek(f64),
+    /// Stop playing.
+    Pause,
+    /// Play, or stop playing; at the end, play from the start.
+    TogglePlay,
+    /// Stop playing and move by this many hundredths of a second.
+    Step(i32),
+    /// Seconds of the experiment per second.
+    SetSpeed(f64),
+    /// Start again at the end, or stop there.
+    ToggleLoop,
+    /// Replace the whole scenario.
+    Load(Box<Scenario>),
+    /// Choose a preset and load its scenario.
+    Choose(&'static Preset),
+    /// Set ξ1, N·m.
+    SetXi1(Threshold),
+    /// Set ξ2, m.
+    SetXi2(Threshold),
+    /// Set when alarms are armed, s.
+    SetArmedFrom(f64),
+    /// Set a control, in the unit it shows.
+    Set(&'static Control, f64),
+    /// Set a control from what a person typed.
+    Enter(&'static Control, String),
+    /// Switch a control off or on.
+    Switch(&'static Control, bool),
+    /// Pick an option.
+    Pick(&'static Choice, usize),
+    /// Give a control the preset's value.
+    Reset(&'static Control),
+    /// Give a choice the preset's option.
+    ResetChoice(&'static Choice),
+    /// Give everything the preset's values.
+    ResetAll,
+    /// System, light, dark, and again.
+    NextTheme,
+    /// Fold or unfold a group of controls.
+    Fold(&'static str),
+    /// Show a tab, where there is room for one only.
+    ShowTab(Tab),
+    /// Open or close the sheet of controls.
+    ToggleSheet,
+    /// Open or close the help.
+    ToggleHelp,
+}

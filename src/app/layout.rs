@@ -1,0 +1,196 @@
+//! Where everything is, on a desk, a tablet and a phone.
+
+use egui::{Rect, Ui, Vec2, pos2, vec2};
+
+use super::panels::transport::{FLAT, TALL};
+use super::theme::GAP;
+
+/// The rectangles of the page. What is not there is not shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Layout {
+    /// Title bar.
+    pub title: Rect,
+    /// 3D view.
+    pub view: Rect,
+    /// Playback.
+    pub transport: Rect,
+    /// Controls; on a small screen the sheet, and none while it is closed.
+    pub controls: Option<Rect>,
+    /// Tabs and below them one of the three views that follow.
+    pub tabbed: Option<Rect>,
+    /// Bending plane.
+    pub plane: Option<Rect>,
+    /// Readout.
+    pub readout: Option<Rect>,
+    /// Plots.
+    pub plots: Option<Rect>,
+    /// Whether the controls are in a sheet.
+    pub sheet: bool,
+}
+
+/// Cuts a strip off one side of a rectangle, and a gap.
+struct Cut(Rect);
+
+impl Cut {
+    fn top(&mut self, height: f32) -> Rect {
+        let cut = self.0.with_max_y(self.0.top() + height);
+        self.0.min.y = cut.bottom() + GAP;
+        cut
+    }
+
+    fn bottom(&mut self, height: f32) -> Rect {
+        let cut = self.0.with_min_y(self.0.bottom() - height);
+        self.0.max.y = cut.top() - GAP;
+        cut
+    }
+
+    fn left(&mut self, width: f32) -> Rect {
+        let cut = self.0.with_max_x(self.0.left() + width);
+        self.0.min.x = cut.right() + GAP;
+        cut
+    }
+
+    fn right(&mut self, width: f32) -> Rect {
+        let cut = self.0.with_min_x(self.0.right() - width);
+        self.0.max.x = cut.left() - GAP;
+        cut
+    }
+}
+
+impl Layout {
+    /// Lays out a page of a size; `sheet` is how far the sheet of controls is open, 0 to 1.
+    #[must_use]
+    pub fn new(page: Rect, sheet: f32) -> Self {
+        let Vec2 { x: width, y: height } = page.size();
+        if height < 560.0 || (width < 1000.0 && height < 640.0) {
+            if width < 560.0 { Self::phone(page, sheet) } else { Self::low(page, sheet) }
+        } else if width <= 700.0 {
+            Self::phone(page, sheet)
+        } else if width < 1100.0 {
+            Self::tablet(page)
+        } else {
+            Self::desk(page)
+        }
+    }
+
+    /// Controls at the left, 3D in the middle, plane and readout at the right, plots below.
+    fn desk(page: Rect) -> Self {
+        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
+        let title = rest.top(46.0);
+        let controls = rest.left(306.0);
+        let plots = rest.bottom((page.height() * 0.28).clamp(180.0, 340.0));
+        let transport = rest.bottom(FLAT);
+        let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
+        let readout = side.bottom((side.0.height() * 0.52).clamp(230.0, 330.0).min(side.0.height() - 120.0));
+        Self {
+            title,
+            view: rest.0,
+            transport,
+            controls: Some(controls),
+            tabbed: None,
+            plane: Some(side.0),
+            readout: Some(readout),
+            plots: Some(plots),
+            sheet: false,
+        }
+    }
+
+    /// Controls at the left; 3D, playback and the rest above each other.
+    fn tablet(page: Rect) -> Self {
+        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
+        let title = rest.top(46.0);
+        let controls = rest.left(276.0);
+        let tall = page.height() >= 940.0;
+        let (mut plane, mut readout, mut plots, mut tabbed) = (None, None, None, None);
+        if tall {
+            plots = Some(rest.bottom(page.height() * 0.25));
+            let mut row = Cut(rest.bottom(264.0));
+            plane = Some(row.left(row.0.width() / 2.0 - GAP / 2.0));
+            readout = Some(row.0);
+        } else {
+            tabbed = Some(rest.bottom((page.height() * 0.42).max(290.0)));
+        }
+        let transport = rest.bottom(if rest.0.width() < 560.0 { TALL } else { FLAT });
+        Self { title, view: rest.0, transport, controls: Some(controls), tabbed, plane, readout, plots, sheet: false }
+    }
+
+    /// 3D on top, tabs or the sheet below, playback under the thumb.
+    fn phone(page: Rect, sheet: f32) -> Self {
+        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
+        let title = rest.top(46.0);
+        let transport = rest.bottom(TALL);
+        let share = egui::lerp(0.52..=0.36, sheet);
+        let view = rest.top(rest.0.height() * share);
+        Self { title, view, transport, controls: None, tabbed: None, plane: None, readout: None, plots: None, sheet: true }
+            .with_lower(rest.0, sheet)
+    }
+
+    /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
+    fn low(page: Rect, sheet: f32) -> Self {
+        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
+        let title = rest.top(42.0);
+        let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
+        let side = rest.right(rest.0.width() * 0.5);
+        Self { title, view: rest.0, transport, controls: None, tabbed: None, plane: None, readout: None, plots: None, sheet: true }
+            .with_lower(side, sheet)
+    }
+
+    fn with_lower(self, place: Rect, sheet: f32) -> Self {
+        if sheet > 0.5 { Self { controls: Some(place), ..self } } else { Self { tabbed: Some(place), ..self } }
+    }
+
+    /// Every rectangle there is.
+    #[must_use]
+    pub fn all(&self) -> Vec<Rect> {
+        [Some(self.title), Some(self.view), Some(self.transport), self.controls, self.tabbed, self.plane, self.readout, self.plots]
+            .into_iter()
+            .flatten()
+            .collect()
+    }
+}
+
+/// Shows a card with content that stays inside it.
+pub fn card<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let theme = super::theme::Theme::of(ui);
+    ui.painter().rect_filled(rect, f32::from(super::theme::ROUND), theme.panel);
+    inside(ui, name, rect, content)
+}
+
+/// Shows content in a rectangle.
+pub fn inside<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(rect));
+    child.shrink_clip_rect(rect);
+    content(&mut child)
+}
+
+/// The strip of tabs in a tabbed card, and what is below.
+#[must_use]
+pub fn tab_strip(rect: Rect) -> (Rect, Rect) {
+    let strip = Rect::from_min_max(rect.min + vec2(8.0, 8.0), pos2(rect.right() - 8.0, rect.top() + 42.0));
+    (strip, rect.with_min_y(strip.bottom() + 4.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_overlaps_or_leaves_the_page() {
+        for (width, height) in [
+            (390.0, 844.0), (360.0, 640.0), (320.0, 568.0), (844.0, 390.0), (768.0, 1024.0), (1024.0, 768.0),
+            (1280.0, 720.0), (1440.0, 900.0), (1920.0, 1080.0), (2560.0, 1440.0),
+        ] {
+            let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
+            for sheet in [0.0, 1.0] {
+                let rects = Layout::new(page, sheet).all();
+                for (i, rect) in rects.iter().enumerate() {
+                    assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
+                    assert!(rect.width() >= 180.0 && rect.height() >= 40.0, "{width}×{height}: {rect:?}");
+                    for other in &rects[..i] {
+                        assert!(!rect.shrink(0.5).intersects(other.shrink(0.5)), "{width}×{height}: {rect:?} {other:?}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! Scenario → run, computed when the scenario changes.
+
+use thiserror::Error;
+
+use crate::experiment::{Plan, Run, Scenario, ScenarioError, simulate};
+
+/// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
+pub const MAX_SAMPLES: usize = 200_000;
+
+/// Why a scenario is not run.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum Refusal {
+    /// It is impossible.
+    #[error(transparent)]
+    Impossible(#[from] ScenarioError),
+    /// It is too long for a page.
+    #[error("motion.end = {end} s at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}")]
+    TooLong {
+        /// `motion.end`, s.
+        end: f64,
+        /// `loop_rate`, Hz.
+        rate: f64,
+        /// Samples it would have.
+        samples: usize,
+    },
+}
+
+/// Whether the page can run a scenario.
+///
+/// # Errors
+/// Why not.
+pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
+    let samples = Plan::new(scenario)?.samples();
+    if samples > MAX_SAMPLES {
+        return Err(Refusal::TooLong { end: scenario.motion.end, rate: scenario.loop_rate, samples });
+    }
+    Ok(())
+}
+
+/// The last run that was possible, and why the wanted one is not.
+#[derive(Debug)]
+pub struct Memo {
+    wanted: Scenario,
+    run: Run,
+    refusal: Option<Refusal>,
+}
+
+impl Memo {
+    /// Runs a scenario; the default one in place of one that is refused.
+    ///
+    /// # Panics
+    /// When the default scenario is impossible, which a test excludes.
+    #[must_use]
+    pub fn new(scenario: &Scenario) -> Self {
+        let run = simulate(&Scenario::default()).expect("the default scenario is possible");
+        let mut memo = Self { wanted: Scenario::default(), run, refusal: None };
+        memo.update(scenario);
+        memo
+    }
+
+    /// Brings the run up to date. Returns whether the scenario had changed.
+    pub fn update(&mut self, scenario: &Scenario) -> bool {
+        if *scenario == self.wanted {
+            return false;
+        }
+        self.wanted = scenario.clone();
+        let run = check(scenario).and_then(|()| Ok(simulate(scenario)?));
+        self.refusal = run.map(|run| self.run = run).err();
+        true
+    }
+
+    /// The last run that was possible.
+    #[must_use]
+    pub fn run(&self) -> &Run {
+        &self.run
+    }
+
+    /// Why the wanted scenario is not the one that was run.
+    #[must_use]
+    pub fn refusal(&self) -> Option<&Refusal> {
+        self.refusal.as_ref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refused_scenario_keeps_the_last_good_run() {
+        let mut memo = Memo::new(&Scenario::default());
+        let before = memo.run().fingerprint();
+        let mut scenario = Scenario::default();
+        scenario.robot.length = -1.0;
+        assert!(memo.update(&scenario));
+        assert_eq!(memo.run().fingerprint(), before);
+        let message = memo.refusal().expect("refused").to_string();
+        assert!(message.contains("robot.length") && message.contains("-1"), "{message}");
+        assert!(memo.update(&Scenario::default()));
+        assert_eq!(memo.refusal(), None);
+    }
+
+    #[test]
+    fn a_run_too_long_for_a_page_is_refused() {
+        let mut scenario = Scenario::default();
+        scenario.motion.end = 99_999.0;
+        let message = check(&scenario).expect_err("too long").to_string();
+        assert!(message.contains("motion.end") && message.contains("99999"), "{message}");
+    }
+}

@@ -1,0 +1,51 @@
+//! What the run came to: a sentence, and figures in a table.
+
+use egui::{Align2, RichText, ScrollArea, Sense, Ui, vec2};
+
+use crate::app::fonts;
+use crate::app::story::{self, Figure};
+use crate::app::theme::Theme;
+use crate::app::widgets::text;
+use crate::experiment::Run;
+
+/// Shows the readout.
+pub fn readout(ui: &mut Ui, run: &Run) {
+    let theme = Theme::of(ui);
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            ui.add(egui::Label::new(RichText::new(story::words(run)).size(13.5).color(theme.ink)).wrap());
+            ui.add_space(10.0);
+            let figures = story::figures(run);
+            let wide = ui.available_width() > 430.0;
+            let columns = if wide { 2 } else { 1 };
+            let rows = figures.len().div_ceil(columns);
+            let width = (ui.available_width() - if wide { 40.0 } else { 0.0 }) / columns as f32;
+            let height = ((ui.available_height() - 14.0) / rows as f32).clamp(19.0, 26.0);
+            let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height * rows as f32), Sense::hover());
+            for (i, figure) in figures.iter().enumerate() {
+                let (column, row) = ((i / rows) as f32, (i % rows) as f32);
+                let min = rect.min + vec2(column * (width + 40.0), row * height);
+                line(ui, egui::Rect::from_min_size(min, vec2(width, height)), figure, &theme);
+            }
+        });
+    });
+}
+
+/// A figure: its name at the left, number and unit in columns at the right.
+fn line(ui: &mut Ui, rect: egui::Rect, figure: &Figure, theme: &Theme) {
+    let ink = match figure.name {
+        "Detected" | "Estimate" if figure.value != "–" => theme.detection,
+        _ if figure.value == "–" => theme.dim,
+        _ => theme.ink,
+    };
+    text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, figure.name, fonts::regular(13.0), theme.dim);
+    let unit = rect.right_center() - vec2(24.0, 0.0);
+    text::paint(ui, unit, Align2::LEFT_CENTER, figure.unit, fonts::regular(12.5), theme.dim);
+    text::paint(ui, unit - vec2(5.0, 0.0), Align2::RIGHT_CENTER, &figure.value, fonts::strong(13.5), ink);
+    // The painted line is one word to assistive technology.
+    let response = ui.interact(rect, ui.make_persistent_id(("figure", figure.name)), Sense::hover());
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Label, true, format!("{}: {} {}", figure.name, figure.value, figure.unit))
+    });
+}

@@ -1,0 +1,113 @@
+//! The title bar: name, presets, theme, help.
+
+use egui::{Align, Align2, ComboBox, Layout, Rect, RichText, Ui, UiBuilder, vec2};
+
+use crate::app::command::Command;
+use crate::app::fonts;
+use crate::app::state::State;
+use crate::app::theme::{Theme, ThemeChoice};
+use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::text;
+use crate::experiment::preset::{PRESETS, Preset};
+
+/// A preset's name as the page writes it.
+#[must_use]
+pub fn name(preset: &Preset) -> String {
+    let words = preset.name.replace('-', " ");
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
+/// Shows the title bar; `sheet` asks for the button that opens the controls.
+pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let narrow = rect.width() < 560.0;
+    let mut left = rect.left_center() + vec2(if narrow { 8.0 } else { 10.0 }, 0.0);
+    mark(ui, left + vec2(9.0, 0.0), &theme);
+    left.x += 26.0;
+    let word = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink);
+    left.x = word.right() + 14.0;
+    if rect.width() > 980.0 {
+        let said = "contact detection on a continuum robot";
+        left.x = text::paint(ui, left, Align2::LEFT_CENTER, said, fonts::regular(13.0), theme.dim).right() + 20.0;
+    }
+
+    let mut right = rect.right_center() - vec2(20.0, 0.0);
+    let mut place = |width: f32| {
+        let place = Rect::from_center_size(right, vec2(34.0, 34.0));
+        right.x -= width;
+        place
+    };
+    if icon::button(ui, place(38.0), Icon::Help, "Help", Look::Plain).clicked() {
+        out.push(Command::ToggleHelp);
+    }
+    let (sign, label) = match state.theme {
+        ThemeChoice::System => (Icon::System, "Theme: system"),
+        ThemeChoice::Light => (Icon::Light, "Theme: light"),
+        ThemeChoice::Dark => (Icon::Dark, "Theme: dark"),
+    };
+    if icon::button(ui, place(38.0), sign, label, Look::Plain).clicked() {
+        out.push(Command::NextTheme);
+    }
+    if sheet {
+        let look = if state.sheet { Look::Lit } else { Look::Plain };
+        if icon::button(ui, place(38.0), Icon::Controls, "Controls", look).clicked() {
+            out.push(Command::ToggleSheet);
+        }
+    }
+
+    let room = (right.x + 10.0 - left.x).clamp(80.0, 230.0);
+    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
+    let mut child = ui.new_child(UiBuilder::new().max_rect(place).layout(Layout::left_to_right(Align::Center)));
+    presets(&mut child, state, out);
+}
+
+/// The mark: an arc and the point it turns about.
+fn mark(ui: &Ui, center: egui::Pos2, theme: &Theme) {
+    let hub = center + vec2(5.0, 5.0);
+    let points = (0..=20).map(|i| hub + 12.0 * egui::Vec2::angled(std::f32::consts::PI * (0.94 + 0.62 * i as f32 / 20.0))).collect();
+    ui.painter().line(points, egui::Stroke::new(2.6, theme.ink));
+    ui.painter().circle_filled(hub, 2.8, theme.accent);
+}
+
+fn presets(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let chosen = state.preset();
+    let width = ui.available_width();
+    let menu = ui.ctx().content_rect().width().min(420.0) - 32.0;
+    let combo = ComboBox::from_id_salt("preset")
+        .width(width)
+        .height(600.0)
+        .truncate()
+        .selected_text(RichText::new(name(chosen)).font(fonts::strong(13.0)))
+        .show_ui(ui, |ui| {
+            ui.set_width(menu);
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for preset in PRESETS {
+                if item(ui, preset, std::ptr::eq(preset, chosen), &theme) {
+                    out.push(Command::Choose(preset));
+                    ui.close();
+                }
+            }
+        });
+    combo.response.accessible_name("Preset").on_hover_text(chosen.summary());
+}
+
+/// A preset with what it shows; returns whether it was clicked.
+fn item(ui: &mut Ui, preset: &Preset, chosen: bool, theme: &Theme) -> bool {
+    let mut job = egui::text::LayoutJob::default();
+    job.wrap.max_width = ui.available_width() - 20.0;
+    let format = |font, color| egui::TextFormat { font_id: font, color, ..Default::default() };
+    let title = name(preset);
+    job.append(&title, 0.0, format(fonts::strong(13.0), if chosen { theme.accent } else { theme.ink }));
+    job.append(&format!("\n{}", preset.summary()), 0.0, format(fonts::regular(12.0), theme.dim));
+    let galley = ui.painter().layout_job(job);
+    let size = vec2(ui.available_width(), galley.size().y + 12.0);
+    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), chosen, &title));
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 6.0, theme.raised);
+    }
+    ui.painter().galley(rect.min + vec2(10.0, 6.0), galley, theme.ink);
+    response.clicked()
+}

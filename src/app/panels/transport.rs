@@ -1,0 +1,144 @@
+//! Playback: play, step, scrub, speed, loop.
+
+use egui::{Align2, Rect, Shape, Stroke, Ui, pos2, vec2};
+
+use crate::app::command::Command;
+use crate::app::control::Scale;
+use crate::app::fonts;
+use crate::app::quantity::{fixed, number};
+use crate::app::state::State;
+use crate::app::theme::Theme;
+use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::rail::Rail;
+use crate::app::widgets::slider::{self, Slider};
+use crate::app::widgets::text;
+use crate::experiment::Run;
+
+/// Height in one row, points.
+pub const FLAT: f32 = 52.0;
+/// Height in two rows, points.
+pub const TALL: f32 = 104.0;
+
+/// Shows playback; in two rows where it is narrow.
+pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Command>) {
+    let narrow = rect.height() > FLAT + 1.0;
+    let size = if narrow { 44.0 } else { 34.0 };
+    let y = if narrow { rect.bottom() - 30.0 } else { rect.center().y };
+    let mut x = rect.left() + if narrow { 8.0 } else { 10.0 };
+    let mut place = |width: f32| {
+        x += width;
+        Rect::from_center_size(pos2(x - width / 2.0, y), vec2(width - 2.0, size))
+    };
+
+    if icon::button(ui, place(size), Icon::ToStart, "To start", Look::Plain).clicked() {
+        out.push(Command::Seek(0.0));
+    }
+    if icon::button(ui, place(size), Icon::StepBack, "Step back", Look::Plain).clicked() {
+        out.push(Command::Step(-1));
+    }
+    let (sign, label) = if state.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
+    let round = Rect::from_center_size(place(size + 8.0).center(), vec2(size, size));
+    if icon::button(ui, round, sign, label, Look::Accent).clicked() {
+        out.push(Command::TogglePlay);
+    }
+    if icon::button(ui, place(size), Icon::StepForward, "Step forward", Look::Plain).clicked() {
+        out.push(Command::Step(1));
+    }
+    let theme = Theme::of(ui);
+    let clock = fixed(state.time, 3);
+    let at = pos2(x + 12.0, y);
+    let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
+    let unit = text::paint(ui, drawn.right_center() + vec2(4.0, 0.0), Align2::LEFT_CENTER, "s", fonts::regular(13.0), theme.dim);
+    let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + 16.0;
+
+    let mut right = rect.right() - if narrow { 6.0 } else { 10.0 };
+    right -= size;
+    let look = if state.looping { Look::Lit } else { Look::Plain };
+    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(size - 4.0, size - 4.0));
+    if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
+        out.push(Command::ToggleLoop);
+    }
+    let rail_width = if narrow { (right - left - 44.0).clamp(36.0, 110.0) } else { 92.0 };
+    right -= 8.0;
+    speed(ui, pos2(right, y), rail_width, size, state, out);
+    right -= rail_width + 56.0;
+
+    let track = if narrow {
+        Rect::from_min_max(rect.min + vec2(8.0, 6.0), pos2(rect.right() - 8.0, rect.bottom() - 56.0))
+    } else {
+        Rect::from_min_max(pos2(left + 4.0, rect.top() + 8.0), pos2(right, rect.bottom() - 8.0))
+    };
+    scrub(ui, track, state, run, out);
+}
+
+fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let spoken = format!("{}×", number(state.speed, 1));
+    text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
+    let track = Rect::from_min_max(right - vec2(width + 42.0, height / 2.0), right + vec2(-42.0, height / 2.0));
+    let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
+    let (response, moved) = slider::slider(ui, track, &Slider {
+        label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true,
+    });
+    response.on_hover_text("Speed of playback");
+    if let Some(speed) = moved {
+        // The natural speed is easy to hit.
+        out.push(Command::SetSpeed(if (0.93..1.08).contains(&speed) { 1.0 } else { speed }));
+    }
+}
+
+fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let scenario = run.plan.scenario();
+    let rail = Rail { range: (0.0, scenario.motion.end), scale: Scale::Linear(0.001) };
+    let spoken = format!("{} s", fixed(state.time, 3));
+    let shape = Slider { label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
+    let (response, asked) = slider::sense(ui, rect, &shape);
+    if let Some(time) = asked {
+        out.push(Command::Seek(time));
+    }
+    let time = asked.unwrap_or(state.time);
+    let (x, y) = (slider::at(rect, rail.place(time)), rect.center().y);
+    let at = |time: f64| slider::at(rect, rail.place(time));
+    let (start, end) = slider::way(rect);
+    let painter = ui.painter();
+    let bar = |from: f32, to: f32, half: f32, color| {
+        painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - half..=y + half), half, color);
+    };
+    bar(start, end, 2.5, theme.faint);
+    let armed = at(scenario.detection.armed_from);
+    // Before arming the rail is thin: nothing can be noticed there.
+    painter.rect_filled(Rect::from_x_y_ranges(start..=armed, y - 3.0..=y - 1.0), 0.0, theme.panel);
+    painter.rect_filled(Rect::from_x_y_ranges(start..=armed, y + 1.0..=y + 3.0), 0.0, theme.panel);
+    bar(start, x.min(armed).max(start), 1.0, theme.accent);
+    if x > armed {
+        bar(armed, x, 2.5, theme.accent);
+    }
+    painter.vline(armed, y - 6.0..=y + 6.0, Stroke::new(1.5, theme.dim));
+    if let Some(contact) = run.contact_time {
+        let (x, top) = (at(contact), y + 6.0);
+        let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
+        painter.add(Shape::convex_polygon(points, theme.obstacle, Stroke::NONE));
+    }
+    if let Some(detection) = run.detection {
+        let center = pos2(at(detection.time), y - 10.0);
+        let points = [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)].map(|v| center + v).to_vec();
+        painter.add(Shape::convex_polygon(points, theme.detection, Stroke::NONE));
+    }
+    slider::paint_handle(ui, &response, x, true);
+    response.on_hover_ui(|ui| {
+        ui.label(marks(run));
+    });
+}
+
+/// What the marks on the rail are.
+fn marks(run: &Run) -> String {
+    let mut said = format!("Armed from {} s", fixed(run.plan.scenario().detection.armed_from, 2));
+    if let Some(contact) = run.contact_time {
+        said += &format!(" · contact at {} s", fixed(contact, 3));
+    }
+    if let Some(detection) = run.detection {
+        said += &format!(" · detected at {} s", fixed(detection.time, 3));
+    }
+    said
+}

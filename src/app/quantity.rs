@@ -1,0 +1,200 @@
+//! Quantities as a person reads and types them: millimetres and degrees here, SI everywhere else.
+
+use std::f64::consts::PI;
+
+/// What a number is, and so how it is shown and typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// A length, shown in mm.
+    Length,
+    /// An angle, shown in °.
+    Angle,
+    /// A time, shown in s.
+    Time,
+    /// A ratio, shown in %.
+    Ratio,
+    /// A moment, shown in N·m.
+    Moment,
+    /// A force, shown in N.
+    Force,
+    /// A frequency, shown in Hz.
+    Frequency,
+    /// An angular speed, shown in °/s.
+    AngularSpeed,
+    /// A modulus of elasticity, shown in GPa.
+    Modulus,
+    /// A number without unit.
+    Count,
+}
+
+/// A unit and its size in SI; the first of a quantity's units is the one shown.
+type Unit = (&'static str, f64);
+
+const DEGREE: f64 = PI / 180.0;
+
+impl Quantity {
+    fn units(self) -> &'static [Unit] {
+        match self {
+            Self::Length => &[("mm", 1e-3), ("µm", 1e-6), ("μm", 1e-6), ("um", 1e-6), ("cm", 1e-2), ("m", 1.0)],
+            Self::Angle => &[("°", DEGREE), ("deg", DEGREE), ("degrees", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
+            Self::Time => &[("s", 1.0), ("ms", 1e-3)],
+            Self::Ratio => &[("%", 1e-2)],
+            Self::Moment => &[("N·m", 1.0), ("Nm", 1.0), ("N m", 1.0), ("mN·m", 1e-3), ("mNm", 1e-3), ("N·mm", 1e-3), ("Nmm", 1e-3)],
+            Self::Force => &[("N", 1.0), ("mN", 1e-3)],
+            Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3)],
+            Self::AngularSpeed => &[("°/s", DEGREE), ("deg/s", DEGREE), ("rad/s", 1.0)],
+            Self::Modulus => &[("GPa", 1e9), ("MPa", 1e6), ("Pa", 1.0)],
+            Self::Count => &[("", 1.0)],
+        }
+    }
+
+    /// The unit it is shown in.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        self.units()[0].0
+    }
+
+    /// An SI value in the unit shown.
+    #[must_use]
+    pub fn shown(self, si: f64) -> f64 {
+        // Ten digits more than anyone types, so that 0.01° does not come back as 0.009999999999999998°.
+        round_to(si / self.units()[0].1, 12)
+    }
+
+    /// A value in the unit shown, in SI.
+    #[must_use]
+    pub fn si(self, shown: f64) -> f64 {
+        shown * self.units()[0].1
+    }
+
+    /// Reads what a person typed, with or without unit; the result is in the unit shown.
+    ///
+    /// # Errors
+    /// What is wrong with it, in words.
+    pub fn parse(self, text: &str) -> Result<f64, String> {
+        let text = text.trim();
+        let (number, unit) = split(text).ok_or_else(|| format!("“{}” is not a number", shorten(text)))?;
+        if !number.is_finite() {
+            return Err(format!("“{}” is not a finite number", shorten(text)));
+        }
+        if unit.is_empty() {
+            return Ok(number);
+        }
+        let factor = self.units().iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor);
+        let factor = factor.ok_or_else(|| match self.unit() {
+            "" => format!("“{}”: a plain number is expected, without unit", shorten(text)),
+            known => format!("“{}”: {known} is expected, not “{}”", shorten(text), shorten(unit)),
+        })?;
+        let own = self.units()[0].1;
+        #[allow(clippy::float_cmp)] // The very same constant, or another unit.
+        if factor == own { Ok(number) } else { Ok(round_to(number * factor / own, 12)) }
+    }
+}
+
+/// A number with its unit, `decimals` digits after the point and more only where the value has them.
+#[must_use]
+pub fn number(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let mut text = format!("{:.*}", decimals.max(6), value);
+    while text.ends_with('0') && text.len() - text.find('.').unwrap_or(0) > decimals + 1 {
+        text.pop();
+    }
+    if text.ends_with('.') {
+        text.pop();
+    }
+    text.replace('-', "−")
+}
+
+/// A number with exactly `decimals` digits after the point; “–” where it is not defined.
+#[must_use]
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if value.is_finite() { format!("{value:.decimals$}").replace('-', "−") } else { "–".into() }
+}
+
+/// Rounds to this many significant digits.
+#[must_use]
+pub fn round_to(value: f64, digits: i32) -> f64 {
+    if value == 0.0 || !value.is_finite() {
+        return value;
+    }
+    let power = digits - 1 - value.abs().log10().floor() as i32;
+    // Dividing by a power of ten is exact where multiplying by its inverse is not.
+    let rounded = if power >= 0 {
+        let scale = 10f64.powi(power);
+        (value * scale).round() / scale
+    } else {
+        let scale = 10f64.powi(-power);
+        (value / scale).round() * scale
+    };
+    if rounded.is_finite() { rounded } else { value }
+}
+
+/// The number at the start of a text, and the rest.
+fn split(text: &str) -> Option<(f64, &str)> {
+    if text.chars().count() > 64 {
+        return None;
+    }
+    let ends = text.char_indices().map(|(at, c)| at + c.len_utf8()).rev();
+    ends.filter_map(|end| {
+        let (head, rest) = text.split_at(end);
+        let mut head = head.trim().replace('−', "-");
+        if head.matches(',').count() == 1 && !head.contains('.') {
+            head = head.replace(',', ".");
+        }
+        Some((head.parse::<f64>().ok()?, rest.trim()))
+    })
+    .next()
+}
+
+/// A text short enough for a message.
+#[must_use]
+pub fn shorten(text: &str) -> String {
+    if text.chars().count() <= 16 { text.into() } else { text.chars().take(15).chain(['…']).collect() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_person_types_is_read() {
+        for (quantity, text, shown) in [
+            (Quantity::Length, "15", 15.0),
+            (Quantity::Length, " 15 mm ", 15.0),
+            (Quantity::Length, "50µm", 0.05),
+            (Quantity::Length, "0.015 m", 15.0),
+            (Quantity::Angle, "−90°", -90.0),
+            (Quantity::Angle, "0.01 deg", 0.01),
+            (Quantity::Time, "5,8", 5.8),
+            (Quantity::Time, "5800 ms", 5.8),
+            (Quantity::Ratio, "10 %", 10.0),
+            (Quantity::Moment, "30 mN·m", 0.03),
+            (Quantity::Count, "1e3", 1000.0),
+        ] {
+            assert_eq!(quantity.parse(text), Ok(shown), "{text}");
+        }
+        assert_eq!(Quantity::Angle.shown(Quantity::Angle.si(0.01)), 0.01);
+    }
+
+    #[test]
+    fn nonsense_is_refused_in_words() {
+        for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)] {
+            let message = Quantity::Length.parse(text).expect_err(text);
+            assert!(message.contains('“') && message.chars().count() < 80, "{message}");
+        }
+        assert!(Quantity::Count.parse("3 mm").is_err());
+    }
+
+    #[test]
+    fn numbers_keep_the_digits_they_have() {
+        assert_eq!(number(5.8, 2), "5.80");
+        assert_eq!(number(5.8125, 2), "5.8125");
+        assert_eq!(number(500.0, 0), "500");
+        assert_eq!(number(-0.05, 2), "−0.05");
+        assert_eq!(number(0.01, 3), "0.010");
+        assert_eq!(fixed(f64::NAN, 1), "–");
+        assert_eq!(round_to(123_456.0, 2), 120_000.0);
+    }
+}

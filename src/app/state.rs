@@ -1,0 +1,91 @@
+//! Everything a person sets, and nothing that follows from it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use super::table;
+use super::theme::ThemeChoice;
+use crate::experiment::preset::{self, PRESETS, Preset};
+use crate::experiment::Scenario;
+
+/// How long before the motion playback opens and loops, s: the rest before it shows nothing.
+const LEAD_IN: f64 = 0.4;
+
+/// The inputs of the page.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct State {
+    /// Name of the preset that resets go back to.
+    pub preset: String,
+    /// The experiment.
+    pub scenario: Scenario,
+    /// Values of controls that are switched off, by key, as shown; they come back when switched on.
+    pub remembered: BTreeMap<String, f64>,
+    /// The cursor, s.
+    pub time: f64,
+    /// Whether the cursor moves.
+    pub playing: bool,
+    /// Seconds of the experiment per second.
+    pub speed: f64,
+    /// Whether playback starts again at the end.
+    pub looping: bool,
+    /// Dark or light.
+    pub theme: ThemeChoice,
+    /// Names of the groups of controls that are folded.
+    pub folded: BTreeSet<String>,
+    /// What a small screen shows.
+    pub tab: Tab,
+    /// Whether a small screen shows the controls.
+    pub sheet: bool,
+    /// Whether the help is open.
+    pub help: bool,
+}
+
+/// Where there is room for one of them only.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tab {
+    /// What the experiment came to.
+    #[default]
+    Result,
+    /// The live plots.
+    Plots,
+    /// The bending plane.
+    Plane,
+}
+
+impl Default for State {
+    fn default() -> Self {
+        let preset = &PRESETS[0];
+        let scenario = preset.scenario().unwrap_or_default();
+        Self {
+            preset: preset.name.into(),
+            time: lead_in(&scenario),
+            scenario,
+            remembered: BTreeMap::new(),
+            playing: true,
+            speed: 1.0,
+            looping: true,
+            theme: ThemeChoice::System,
+            folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
+            tab: Tab::Result,
+            sheet: false,
+            help: false,
+        }
+    }
+}
+
+impl State {
+    /// The chosen preset; the first when its name is unknown.
+    #[must_use]
+    pub fn preset(&self) -> &'static Preset {
+        preset::find(&self.preset).unwrap_or(&PRESETS[0])
+    }
+}
+
+/// Where playback opens and loops to, s: shortly before the motion.
+#[must_use]
+pub fn lead_in(scenario: &Scenario) -> f64 {
+    (scenario.motion.start - LEAD_IN).clamp(0.0, scenario.motion.end.max(0.0))
+}

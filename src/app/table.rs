@@ -1,0 +1,285 @@
+//! Every control of the page, a row each.
+
+use super::control::{Choice, Control, Group, Scale, Words};
+use super::quantity::{Quantity, number, shorten};
+use super::span;
+use crate::experiment::Scenario;
+use crate::experiment::scenario::{Averaging, Mounting, Place, Start, Threshold};
+use Quantity::{Angle, AngularSpeed, Count, Force, Frequency, Length, Modulus, Moment, Ratio, Time};
+use Scale::{Linear, Log, LogWhole, Stops, Whole};
+
+/// The parts of a row that a field of the scenario gives.
+struct Field(fn(&Scenario) -> Option<f64>, fn(&mut Scenario, f64), fn(&Scenario, &mut Scenario));
+
+macro_rules! field {
+    ($($path:ident).+) => {
+        Field(|s| Some(s.$($path).+), |s, v| s.$($path).+ = v, |from, to| to.$($path).+ = from.$($path).+)
+    };
+    (whole $($path:ident).+) => {
+        Field(|s| Some(s.$($path).+ as f64), |s, v| s.$($path).+ = v as u64, |from, to| to.$($path).+ = from.$($path).+)
+    };
+    (threshold $($path:ident).+) => {
+        Field(|s| s.$($path).+.value(), |s, v| s.$($path).+ = Threshold::On(v), |from, to| to.$($path).+ = from.$($path).+)
+    };
+}
+
+type Range = fn(&Scenario) -> (f64, f64);
+
+const fn row(key: &'static str, label: &'static str, quantity: Quantity, decimals: usize, scale: Scale, range: Range, field: Field, tip: &'static str) -> Control {
+    let Field(get, set, copy) = field;
+    Control { key, label, quantity, decimals, scale, range, tip, get, set, copy, off: None, words: None }
+}
+
+const fn with_words(control: Control, words: Words) -> Control {
+    Control { words: Some(words), ..control }
+}
+
+const fn with_off(control: Control, off: fn(&mut Scenario)) -> Control {
+    Control { off: Some(off), ..control }
+}
+
+const RUN: Range = |s| (0.0, s.motion.end);
+
+const CONTACT: &[Control] = &[
+    with_words(
+        row("contact.disk", "Contact disk", Count, 0, Stops, |s| (0.0, s.robot.disks.len() as f64),
+            Field(|s| Some(span::disk(s)), set_disk, |from, to| to.contact.place = from.contact.place),
+            "Where the beam meets the backbone: at a disk, or type an arc length such as 18 mm."),
+        Words { show: show_place, enter: enter_place }),
+    with_words(
+        row("contact.time", "Contact time", Time, 2, Linear(0.01), RUN,
+            Field(|s| Some(span::contact_start(s)), |s, v| s.contact.start = Start::Time(v), |from, to| to.contact.start = from.contact.start),
+            "When the backbone reaches the beam. A bend can be typed instead, such as 56°."),
+        Words { show: show_start, enter: enter_start }),
+    row("motion.delta", "Bending direction δ", Angle, 0, Linear(1.0), |_| (-180.0, 180.0), field!(motion.delta),
+        "Turns the bending plane about the straight backbone."),
+];
+
+const SENSORS: &[Control] = &[
+    row("load_cells.epsilon_tau", "Load cell error ε_τ", Ratio, 1, Linear(0.5), |_| (0.0, 50.0), field!(load_cells.epsilon_tau),
+        "Relative error common to the three load cells; it sets the bound ε_c."),
+    row("tracker.position_noise", "Position noise", Length, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.position_noise),
+        "Standard deviation of the tracker's white noise on each coordinate."),
+    row("tracker.orientation_noise", "Orientation noise", Angle, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.orientation_noise),
+        "Standard deviation of the tracker's white noise on each angle."),
+    row("seed", "Seed", Count, 0, Whole, |_| (0.0, 99.0), field!(whole seed),
+        "Another number, another course of the noise; the same number, the same run."),
+];
+
+const FILTER: &[Control] = &[row(
+    "filter.length", "Filter length N", Count, 0, LogWhole, |_| (1.0, 2000.0), field!(whole filter.length),
+    "Readings in the moving average: longer is calmer and later. 1 does not filter.")];
+
+const THRESHOLDS: &[Control] = &[
+    with_off(
+        row("detection.xi2", "ξ2 (centrode)", Length, 1, Linear(0.1), |_| (0.0, 20.0), field!(threshold detection.xi2),
+            "Alarm when the sensor's centrode is farther than this from the model's."),
+        |s| s.detection.xi2 = Threshold::OFF),
+    with_off(
+        row("detection.xi1", "ξ1 (joint force)", Moment, 3, Linear(0.001), |_| (0.0, 0.1), field!(threshold detection.xi1),
+            "Alarm when the joint force deviation Θ exceeds this."),
+        |s| s.detection.xi1 = Threshold::OFF),
+    row("detection.armed_from", "Armed from", Time, 2, Linear(0.05), RUN, field!(detection.armed_from),
+        "No alarm is raised before this time."),
+];
+
+const MOTION: &[Control] = &[
+    row("motion.theta_start", "θL at the start", Angle, 1, Linear(1.0), |_| (-90.0, 180.0), field!(motion.theta_start),
+        "Tangent angle of the tip before the motion; 90° is straight."),
+    row("motion.theta_end", "θL at the end", Angle, 1, Linear(1.0), |_| (-90.0, 180.0), field!(motion.theta_end),
+        "Tangent angle of the tip after the motion."),
+    row("motion.start", "Motion starts", Time, 2, Linear(0.05), RUN, field!(motion.start), "The robot rests before."),
+    row("motion.finish", "Motion is done", Time, 2, Linear(0.05), RUN, field!(motion.finish), "The robot rests after."),
+    row("motion.end", "Run ends", Time, 2, Linear(0.1), |_| (1.0, 20.0), field!(motion.end), "How long the experiment lasts."),
+];
+
+const ROBOT: &[Control] = &[
+    row("robot.length", "Length L", Length, 1, Linear(0.5), |_| (10.0, 100.0), field!(robot.length),
+        "Primary backbone, base disk to end disk."),
+    row("robot.pitch_radius", "Pitch radius r", Length, 2, Linear(0.05), |_| (0.5, 8.0), field!(robot.pitch_radius),
+        "Circle on which the three secondary backbones stand."),
+    row("robot.primary.youngs_modulus", "Stiffness of the primary", Modulus, 1, Linear(0.5), |_| (1.0, 120.0), field!(robot.primary.youngs_modulus),
+        "Young's modulus of the central tube."),
+    row("robot.secondary.youngs_modulus", "Stiffness of the others", Modulus, 1, Linear(0.5), |_| (1.0, 120.0), field!(robot.secondary.youngs_modulus),
+        "Young's modulus of each of the three outer tubes."),
+];
+
+const DEVICES: &[Control] = &[
+    row("tracker.rate", "Tracker rate", Frequency, 0, Linear(5.0), |_| (10.0, 500.0), field!(tracker.rate),
+        "How often the tracker has a new reading; the loop holds the last one."),
+    row("tracker.latency", "Tracker latency", Time, 3, Linear(0.005), |_| (0.0, 0.2), field!(tracker.latency),
+        "Age of a reading when it arrives."),
+    row("tracker.position_resolution", "Position resolution", Length, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.position_resolution),
+        "Coordinates are rounded to multiples of this; 0 does not round."),
+    row("tracker.orientation_resolution", "Orientation resolution", Angle, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.orientation_resolution),
+        "Angles are rounded to multiples of this; 0 does not round."),
+    row("load_cells.noise", "Load cell noise", Force, 3, Log(0.001), |_| (0.0, 5.0), field!(load_cells.noise),
+        "Standard deviation of white noise on each load cell."),
+    row("load_cells.preload", "Preload", Force, 1, Linear(0.5), |_| (0.0, 50.0), field!(load_cells.preload),
+        "Force added to all three secondary backbones alike."),
+    row("detection.min_speed", "Speed floor", AngularSpeed, 2, Linear(0.05), |_| (0.0, 10.0), field!(detection.min_speed),
+        "Centrodes are judged only while the end disk turns faster."),
+];
+
+const DEVICE_CHOICES: &[Choice] = &[
+    Choice {
+        key: "filter.averaging",
+        label: "Averaging",
+        tip: "Average the six readings one by one, as in the paper, or the rotations themselves.",
+        options: &["readings", "rotations"],
+        get: |s| usize::from(s.filter.averaging == Averaging::Rotations),
+        set: |s, i| s.filter.averaging = if i == 0 { Averaging::Readings } else { Averaging::Rotations },
+        copy: |from, to| to.filter.averaging = from.filter.averaging,
+    },
+    Choice {
+        key: "tracker.mounting",
+        label: "Mounting",
+        tip: "Marker's x axis along the bending axis, or aligned with the end disk: singular at 90° of bend.",
+        options: &["bending axis", "aligned"],
+        get: |s| usize::from(s.tracker.mounting == Mounting::Aligned),
+        set: |s, i| s.tracker.mounting = if i == 0 { Mounting::BendingAxis } else { Mounting::Aligned },
+        copy: |from, to| to.tracker.mounting = from.tracker.mounting,
+    },
+];
+
+/// All of them, in the order shown.
+pub static GROUPS: &[Group] = &[
+    Group { name: "Contact", folded: false, controls: CONTACT, choices: &[] },
+    Group { name: "Sensors", folded: false, controls: SENSORS, choices: &[] },
+    Group { name: "Filter", folded: false, controls: FILTER, choices: &[] },
+    Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: &[] },
+    Group { name: "Motion", folded: true, controls: MOTION, choices: &[] },
+    Group { name: "Robot", folded: true, controls: ROBOT, choices: &[] },
+    Group { name: "Tracker and cells", folded: true, controls: DEVICES, choices: DEVICE_CHOICES },
+];
+
+fn set_disk(scenario: &mut Scenario, disk: f64) {
+    let disk = disk.round().max(0.0);
+    scenario.contact.place = if disk < 1.0 { Place::Nowhere } else { Place::Disk(disk as u64) };
+}
+
+fn show_place(scenario: &Scenario) -> Option<(String, &'static str)> {
+    match scenario.contact.place {
+        Place::Nowhere => Some(("none".into(), "")),
+        Place::Disk(_) => None,
+        Place::ArcLength(s) => Some((number(Length.shown(s), 1), Length.unit())),
+    }
+}
+
+fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
+    let text = text.trim();
+    let refused = || Err(format!("“{}” is no place: type none, a disk's number, or an arc length such as 18 mm", shorten(text)));
+    if matches!(text.to_lowercase().as_str(), "none" | "no" | "off" | "free") {
+        scenario.contact.place = Place::Nowhere;
+        return Some(Ok(()));
+    }
+    // A bare number is a disk; an arc length wears its unit, or is a field that shows one already.
+    let along = matches!(scenario.contact.place, Place::ArcLength(_));
+    let disk = Count.parse(text).ok();
+    match (disk, Length.parse(text)) {
+        (Some(disk), _) if disk.fract() == 0.0 && disk >= 0.0 && !along => set_disk(scenario, disk),
+        (Some(_), Ok(shown)) if along => scenario.contact.place = Place::ArcLength(Length.si(shown)),
+        (None, Ok(shown)) => scenario.contact.place = Place::ArcLength(Length.si(shown)),
+        _ => return Some(refused()),
+    }
+    Some(Ok(()))
+}
+
+fn show_start(scenario: &Scenario) -> Option<(String, &'static str)> {
+    match scenario.contact.start {
+        Start::Time(_) => None,
+        Start::Bend(bend) => Some((number(Angle.shown(bend), 1), Angle.unit())),
+    }
+}
+
+fn enter_start(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
+    // A bare number is of the kind that the field shows.
+    let bare = Count.parse(text).is_ok();
+    let bend = matches!(scenario.contact.start, Start::Bend(_));
+    let angle = Angle.parse(text).ok().filter(|_| bend || !bare)?;
+    scenario.contact.start = Start::Bend(Angle.si(angle));
+    Some(Ok(()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::memo::check;
+
+    fn control(key: &str) -> &'static Control {
+        GROUPS.iter().flat_map(|group| group.controls).find(|control| control.key == key).expect(key)
+    }
+
+    #[test]
+    fn every_row_sets_what_it_gets_and_copies_it() {
+        for control in GROUPS.iter().flat_map(|group| group.controls) {
+            let preset = Scenario::default();
+            let (low, high) = (control.range)(&preset);
+            for value in [low, high, (low + high) / 2.0] {
+                let value = if control.scale.is_whole() { value.round() } else { value };
+                let mut scenario = preset.clone();
+                control.slide(&mut scenario, value);
+                let got = control.value(&scenario).expect(control.key);
+                assert!((got - value).abs() <= 1e-9 * value.abs().max(1.0), "{}: {got} ≠ {value}", control.key);
+                (control.copy)(&preset, &mut scenario);
+                assert_eq!(scenario, preset, "{}", control.key);
+            }
+        }
+    }
+
+    #[test]
+    fn the_key_is_a_key_of_the_scenario() {
+        let toml = Scenario::default().to_toml();
+        for key in GROUPS.iter().flat_map(|group| group.controls.iter().map(|c| c.key).chain(group.choices.iter().map(|c| c.key))) {
+            let name = key.rsplit('.').next().expect("name");
+            assert!(toml.lines().any(|line| line.starts_with(&format!("{name} ="))), "{key}");
+        }
+    }
+
+    #[test]
+    fn places_can_be_typed() {
+        let disk = control("contact.disk");
+        let mut scenario = Scenario::default();
+        for (text, place) in [
+            ("3", Place::Disk(3)),
+            ("none", Place::Nowhere),
+            ("1", Place::Disk(1)),
+            ("18 mm", Place::ArcLength(0.018)),
+            ("17", Place::ArcLength(0.017)),
+            ("None", Place::Nowhere),
+            ("0", Place::Nowhere),
+        ] {
+            disk.enter(&mut scenario, text).expect(text);
+            assert_eq!(scenario.contact.place, place, "{text}");
+            check(&scenario).expect(text);
+        }
+        for text in ["1.5", "-1", "two", "nan", "3 s"] {
+            disk.enter(&mut scenario, text).expect_err(text);
+        }
+        // As many disks as asked for; whether they exist is for the scenario's check to say.
+        disk.enter(&mut scenario, "4").expect("a number");
+        assert!(check(&scenario).expect_err("no disk 4").to_string().contains("contact.disk"));
+    }
+
+    #[test]
+    fn starts_can_be_typed() {
+        let start = control("contact.time");
+        let mut scenario = Scenario::default();
+        for (text, shown) in [("5.5", "5.50 s"), ("5600 ms", "5.60 s"), ("45°", "45.0 °"), ("30", "30.0 °"), ("5.8 s", "5.80 s")] {
+            start.enter(&mut scenario, text).expect(text);
+            let (number, unit) = start.text(&scenario);
+            assert_eq!(format!("{number} {unit}"), shown);
+        }
+        start.enter(&mut scenario, "soon").expect_err("words");
+    }
+
+    #[test]
+    fn a_threshold_can_be_typed_off() {
+        let xi2 = control("detection.xi2");
+        let mut scenario = Scenario::default();
+        xi2.enter(&mut scenario, "off").expect("off");
+        assert_eq!((scenario.detection.xi2, xi2.value(&scenario)), (Threshold::OFF, None));
+        xi2.enter(&mut scenario, "6.5").expect("on");
+        assert_eq!(scenario.detection.xi2, Threshold::On(0.0065));
+    }
+}

@@ -1,0 +1,212 @@
+//! Colours and measures of the interface.
+//!
+//! Colour means something: those of the signals come from the scene's palette and are the same everywhere. What can be
+//! touched has the one accent, which no signal uses; everything else is grey.
+
+use egui::{Color32, CornerRadius, Margin, Shadow, Stroke, vec2};
+use serde::{Deserialize, Serialize};
+
+use super::fonts;
+use crate::scene::Color;
+use crate::scene::palette::Palette;
+
+/// Corner radius of a card, points.
+pub const ROUND: u8 = 10;
+/// Space between cards, points.
+pub const GAP: f32 = 8.0;
+
+/// Which theme is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ThemeChoice {
+    /// As the system says.
+    #[default]
+    System,
+    /// Light.
+    Light,
+    /// Dark.
+    Dark,
+}
+
+impl ThemeChoice {
+    /// The next one in the switch's cycle.
+    #[must_use]
+    pub fn next(self) -> Self {
+        match self {
+            Self::System => Self::Light,
+            Self::Light => Self::Dark,
+            Self::Dark => Self::System,
+        }
+    }
+
+    /// In egui's terms.
+    #[must_use]
+    pub fn preference(self) -> egui::ThemePreference {
+        match self {
+            Self::System => egui::ThemePreference::System,
+            Self::Light => egui::ThemePreference::Light,
+            Self::Dark => egui::ThemePreference::Dark,
+        }
+    }
+}
+
+/// Every colour the interface uses.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Theme {
+    /// Whether the background is dark.
+    pub dark: bool,
+    /// The model without constraint.
+    pub model: Color32,
+    /// The model with the constraint.
+    pub constrained: Color32,
+    /// What the sensor says.
+    pub sensor: Color32,
+    /// A detection.
+    pub detection: Color32,
+    /// Robot.
+    pub robot: Color32,
+    /// Obstacle, and contact with it.
+    pub obstacle: Color32,
+    /// Text.
+    pub ink: Color32,
+    /// Text that matters less: units, hints.
+    pub dim: Color32,
+    /// Lines and rails.
+    pub faint: Color32,
+    /// Behind everything.
+    pub surface: Color32,
+    /// Cards.
+    pub panel: Color32,
+    /// Fields and buttons on a card.
+    pub raised: Color32,
+    /// What can be touched, and what has the focus.
+    pub accent: Color32,
+    /// Text and signs on the accent.
+    pub on_accent: Color32,
+    /// A refusal.
+    pub error: Color32,
+}
+
+fn color(color: Color) -> Color32 {
+    let [r, g, b, a] = color.to_bytes();
+    Color32::from_rgba_unmultiplied(r, g, b, a)
+}
+
+impl Theme {
+    /// The theme this `ui` is drawn in.
+    #[must_use]
+    pub fn of(ui: &egui::Ui) -> Self {
+        Self::new(ui.visuals().dark_mode)
+    }
+
+    /// The dark or the light theme.
+    #[must_use]
+    pub fn new(dark: bool) -> Self {
+        let hex = |light: u32, dark_: u32| color(Color::hex(if dark { dark_ } else { light }));
+        let palette = Palette::for_dark(dark);
+        Self {
+            dark,
+            model: color(palette.model),
+            constrained: color(palette.constrained),
+            sensor: color(palette.sensor),
+            detection: color(palette.detection),
+            robot: hex(0x7C8896, 0xAEBBC8),
+            obstacle: color(palette.stone),
+            ink: color(palette.ink),
+            dim: color(palette.ink_dim),
+            faint: hex(0xDCE1E7, 0x2C343E),
+            surface: hex(0xE9EDF1, 0x0C0F13),
+            panel: hex(0xFFFFFF, 0x161B21),
+            raised: hex(0xF1F4F7, 0x20262E),
+            accent: hex(0x5A47D1, 0xA394FF),
+            on_accent: hex(0xFFFFFF, 0x14101F),
+            error: hex(0xB3203E, 0xFF8296),
+        }
+    }
+
+    fn visuals(&self) -> egui::Visuals {
+        let mut visuals = if self.dark { egui::Visuals::dark() } else { egui::Visuals::light() };
+        let radius = CornerRadius::same(6);
+        let state = |fill: Color32, text: Color32, edge: Color32| egui::style::WidgetVisuals {
+            bg_fill: fill,
+            weak_bg_fill: fill,
+            bg_stroke: Stroke::new(1.0, edge),
+            corner_radius: radius,
+            fg_stroke: Stroke::new(1.0, text),
+            expansion: 0.0,
+        };
+        let hover = self.raised.lerp_to_gamma(self.ink, 0.06);
+        let none = Color32::TRANSPARENT;
+        visuals.widgets = egui::style::Widgets {
+            noninteractive: state(self.panel, self.ink, self.faint),
+            inactive: state(self.raised, self.ink, none),
+            hovered: state(hover, self.ink, none),
+            active: state(hover, self.ink, self.accent),
+            open: state(hover, self.ink, self.faint),
+        };
+        visuals.weak_text_color = Some(self.dim);
+        visuals.selection.bg_fill = self.accent.gamma_multiply(if self.dark { 0.35 } else { 0.20 });
+        visuals.selection.stroke = Stroke::new(1.0, self.ink);
+        visuals.hyperlink_color = self.accent;
+        visuals.faint_bg_color = self.raised;
+        visuals.extreme_bg_color = self.raised;
+        visuals.text_edit_bg_color = Some(self.raised);
+        visuals.code_bg_color = self.raised;
+        visuals.warn_fg_color = self.constrained;
+        visuals.error_fg_color = self.error;
+        visuals.panel_fill = self.surface;
+        visuals.window_fill = self.panel;
+        visuals.window_stroke = Stroke::new(1.0, self.faint);
+        visuals.window_corner_radius = CornerRadius::same(ROUND);
+        visuals.menu_corner_radius = CornerRadius::same(8);
+        let shadow = Shadow { offset: [0, 6], blur: 24, spread: 0, color: Color32::from_black_alpha(if self.dark { 120 } else { 40 }) };
+        visuals.window_shadow = shadow;
+        visuals.popup_shadow = shadow;
+        visuals.striped = false;
+        visuals.interact_cursor = Some(egui::CursorIcon::PointingHand);
+        visuals
+    }
+}
+
+/// Sets fonts, and the styles of both themes.
+pub fn install(ctx: &egui::Context) {
+    fonts::install(ctx);
+    for (theme, dark) in [(egui::Theme::Dark, true), (egui::Theme::Light, false)] {
+        let mut style = (*ctx.style_of(theme)).clone();
+        style.visuals = Theme::new(dark).visuals();
+        style.text_styles = fonts::text_styles();
+        style.drag_value_text_style = egui::TextStyle::Body;
+        style.spacing.item_spacing = vec2(8.0, 6.0);
+        style.spacing.button_padding = vec2(10.0, 5.0);
+        style.spacing.interact_size = vec2(32.0, 28.0);
+        style.spacing.menu_margin = Margin::same(6);
+        style.spacing.window_margin = Margin::same(20);
+        style.spacing.tooltip_width = 280.0;
+        style.interaction.selectable_labels = false;
+        style.interaction.tooltip_delay = 0.35;
+        style.explanation_tooltips = false;
+        ctx.set_style_of(theme, style);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let scene = |c: Color32| Color::hex(u32::from(c.r()) << 16 | u32::from(c.g()) << 8 | u32::from(c.b()));
+        scene(a).contrast(scene(b))
+    }
+
+    #[test]
+    fn text_can_be_read_on_everything_it_stands_on() {
+        for theme in [Theme::new(false), Theme::new(true)] {
+            for ground in [theme.surface, theme.panel, theme.raised] {
+                for (text, least) in [(theme.ink, 10.0), (theme.dim, 4.2), (theme.error, 4.5), (theme.accent, 4.5)] {
+                    assert!(contrast(text, ground) > least, "{text:?} on {ground:?}: {}", contrast(text, ground));
+                }
+            }
+            assert!(contrast(theme.on_accent, theme.accent) > 4.5);
+        }
+    }
+}

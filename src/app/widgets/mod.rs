@@ -1,0 +1,9 @@
+//! Widgets that egui lacks, or has in another shape.
+
+pub mod field;
+pub mod icon;
+pub mod rail;
+pub mod segmented;
+pub mod slider;
+pub mod text;
+pub mod toggle;

@@ -1,0 +1,36 @@
+//! A row of options of which one holds.
+
+use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+
+use super::text;
+use crate::app::fonts;
+use crate::app::theme::Theme;
+
+/// Shows the options side by side; returns the one that was clicked.
+pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen: usize) -> Option<usize> {
+    let theme = Theme::of(ui);
+    ui.painter().rect_filled(rect, 7.0, theme.raised);
+    let width = rect.width() / options.len().max(1) as f32;
+    let mut clicked = None;
+    for (i, option) in options.iter().enumerate() {
+        let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height())).shrink(2.0);
+        let id = ui.make_persistent_id(("segment", label, i));
+        let response = ui.interact(part, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+        let held = i == chosen;
+        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), held, option));
+        if held {
+            let fill = if theme.dark { theme.faint } else { theme.panel };
+            ui.painter().rect(part, 5.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
+        }
+        if response.has_focus() {
+            ui.painter().rect_stroke(part, 5.0, Stroke::new(1.5, theme.accent), StrokeKind::Inside);
+        }
+        let ink = if held || response.hovered() { theme.ink } else { theme.dim };
+        let font = if held { fonts::strong(12.5) } else { fonts::regular(12.5) };
+        text::paint(ui, part.center(), Align2::CENTER_CENTER, option, font, ink);
+        if response.clicked() {
+            clicked = Some(i);
+        }
+    }
+    clicked
+}
