@@ -20,5 +20,7 @@
 //!
 //! Where the printed equations are wrong, `docs/MODEL.md` says how, and `tests/it/misprints.rs` shows it.
 
+#[cfg(feature = "app")]
+pub mod app;
 pub mod experiment;
 pub mod model;
