@@ -4,7 +4,7 @@ use crate::harness::{Area, Options, Page, Renderer};
 use serde_json::Value;
 
 fn notice(page: &mut Page) -> Option<String> {
-    let open = page.eval("document.getElementById('notice').open") == true;
+    let open = page.eval("document.getElementById('notice')?.open") == true;
     open.then(|| page.text("#notice-list"))
 }
 
@@ -93,7 +93,7 @@ fn a_renderer_that_is_not_there_is_replaced() {
 
 #[test]
 fn a_refused_device_falls_back_to_webgl() {
-    let mut page = Page::visit(Renderer::WebGpu, "?test", Options::default());
+    let mut page = Page::visit(Renderer::Both, "?test", Options::default());
     page.before_scripts("if (self.GPUAdapter) GPUAdapter.prototype.requestDevice = () => Promise.reject(new Error('refused'));");
     let address = page.eval("location.href");
     page.go(address.as_str().expect("an address"));

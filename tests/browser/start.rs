@@ -38,9 +38,15 @@ fn draws_and_moves_on_webgpu() {
 
 #[test]
 fn the_renderer_can_be_chosen() {
-    let mut page = Page::open(Renderer::WebGpu, "?test&renderer=webgl", Options::default());
-    assert_eq!(page.data("renderer").as_deref(), Some("webgl"));
-    assert_eq!(page.eval("document.getElementById('notice').open"), false);
+    for (query, name) in [
+        ("", "webgpu"),
+        ("&renderer=webgl", "webgl"),
+        ("&renderer=webgpu", "webgpu"),
+    ] {
+        let mut page = Page::open(Renderer::Both, &format!("?test{query}"), Options::default());
+        assert_eq!(page.data("renderer").as_deref(), Some(name), "{query}");
+        assert_eq!(page.eval("document.getElementById('notice').open"), false);
+    }
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use crate::run::{cargo, root, run};
 use crate::tools::{self, WASM};
 use crate::transfer;
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -58,13 +58,20 @@ fn bind(module: &Path) -> Result<Files> {
         .keep_debug(false)
         .remove_name_section(true)
         .generate_output()?;
-    if !output.snippets().is_empty() || !output.local_modules().is_empty() {
-        bail!("a dependency brings JavaScript files of its own, which the page does not place");
+    // Small JavaScript files that dependencies bring along.
+    let mut files = Files::new();
+    for (name, parts) in output.snippets() {
+        for (i, text) in parts.iter().enumerate() {
+            let path = format!("snippets/{name}/inline{i}.js");
+            files.insert(path, text.as_bytes().to_vec());
+        }
     }
-    Ok(Files::from([
-        ("centrode.js".into(), output.js().as_bytes().to_vec()),
-        ("centrode_bg.wasm".into(), output.wasm_mut().emit_wasm()),
-    ]))
+    for (name, text) in output.local_modules() {
+        files.insert(format!("snippets/{name}"), text.as_bytes().to_vec());
+    }
+    files.insert("centrode.js".into(), output.js().as_bytes().to_vec());
+    files.insert("centrode_bg.wasm".into(), output.wasm_mut().emit_wasm());
+    Ok(files)
 }
 
 /// All files of the page. What never changes under one name lies in a directory named by its content,

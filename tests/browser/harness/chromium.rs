@@ -21,8 +21,10 @@ const ANSWER: Duration = Duration::from_secs(120);
 pub enum Renderer {
     /// WebGL 2 alone.
     WebGl,
-    /// WebGPU, and WebGL 2 besides.
+    /// WebGPU alone.
     WebGpu,
+    /// WebGPU and WebGL 2. WebGPU may not reach the screen: not for looking at pixels.
+    Both,
     /// Nothing.
     Neither,
 }
@@ -37,6 +39,12 @@ impl Renderer {
                 "--enable-features=Vulkan",
                 "--use-vulkan=swiftshader",
                 "--use-angle=vulkan",
+            ],
+            Self::Both => &[
+                "--enable-unsafe-webgpu",
+                "--use-webgpu-adapter=swiftshader",
+                "--use-angle=swiftshader",
+                "--enable-unsafe-swiftshader",
             ],
             Self::Neither => &["--disable-gpu", "--disable-software-rasterizer"],
         }

@@ -130,6 +130,10 @@ impl Page {
             .chromium
             .call("Page.navigate", json!({ "url": address }));
         assert!(result.get("errorText").is_none(), "{address}: {result}");
+        self.wait("the document", |page| {
+            (page.eval("document.readyState") != "loading" && !page.shown().is_empty())
+                .then_some(())
+        });
     }
 
     /// Gives the page another size, in CSS pixels.
@@ -194,7 +198,7 @@ impl Page {
 
     /// Which face the page shows: `loading`, `running`, `no-gpu` or `failed`.
     pub fn shown(&mut self) -> String {
-        let page = self.eval("document.documentElement.dataset.page ?? ''");
+        let page = self.eval("document.documentElement?.dataset.page ?? ''");
         page.as_str().unwrap_or_default().to_owned()
     }
 
