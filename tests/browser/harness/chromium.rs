@@ -66,8 +66,8 @@ pub struct Chromium {
 }
 
 impl Chromium {
-    /// Starts a browser that has an empty profile of its own.
-    pub fn start(renderer: Renderer) -> Self {
+    /// Starts a browser that has an empty profile of its own. `scale`: device pixels per CSS pixel.
+    pub fn start(renderer: Renderer, scale: f64) -> Self {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let profile = std::env::temp_dir().join(format!(
             "centrode-browser-{}-{}",
@@ -106,6 +106,7 @@ impl Chromium {
                 "--disable-backgrounding-occluded-windows",
             ])
             .args(renderer.flags())
+            .arg(format!("--force-device-scale-factor={scale}"))
             .arg(format!("--user-data-dir={}", profile.display()))
             .arg("about:blank")
             .stdin(Stdio::piped())
