@@ -86,7 +86,9 @@ fn it_opens_playing_on_a_contact_that_is_detected() {
     assert!(page.query_by_label("State: Detected").is_some(), "{}", report(&page));
     let report = report(&page);
     assert_eq!(report["state"], "detected");
-    assert!(report["summary"].as_str().is_some_and(|said| said.starts_with("Contact on disk 2 at 5.800 s was noticed")));
+    assert!(
+        report["summary"].as_str().is_some_and(|said| said.starts_with("Contact on disk 2 at 5.800 s was noticed"))
+    );
     page.run_steps(60);
     assert!(app(&page).state().playing, "it loops");
 }
@@ -95,9 +97,17 @@ fn it_opens_playing_on_a_contact_that_is_detected() {
 fn every_named_slider_is_there_and_moves_the_scenario() {
     let mut page = page();
     for (label, value) in [
-        ("Contact disk", 3.0), ("Load cell error ε_τ", 20.0), ("Filter length N", 200.0), ("Contact time", 5.5),
-        ("ξ1 (joint force)", 0.05), ("ξ2 (centrode)", 8.0), ("Armed from", 4.0), ("Position noise", 0.02),
-        ("Orientation noise", 0.02), ("Bending direction δ", 45.0), ("Seed", 7.0),
+        ("Contact disk", 3.0),
+        ("Load cell error ε_τ", 20.0),
+        ("Filter length N", 200.0),
+        ("Contact time", 5.5),
+        ("ξ1 (joint force)", 0.05),
+        ("ξ2 (centrode)", 8.0),
+        ("Armed from", 4.0),
+        ("Position noise", 0.02),
+        ("Orientation noise", 0.02),
+        ("Bending direction δ", 45.0),
+        ("Seed", 7.0),
     ] {
         let before = (app(&page).state().scenario.clone(), app(&page).run().fingerprint());
         slide(&mut page, label, value);
@@ -295,7 +305,11 @@ fn the_transport_does_what_it_says() {
     slide(&mut page, "Time", 9.9);
     click(&mut page, "Play");
     page.run_steps(3);
-    assert_eq!((app(&page).state().playing, app(&page).state().time), (false, 10.0), "without loop it stops at the end");
+    assert_eq!(
+        (app(&page).state().playing, app(&page).state().time),
+        (false, 10.0),
+        "without loop it stops at the end"
+    );
 }
 
 #[test]
@@ -341,7 +355,8 @@ fn on_a_phone_the_controls_are_in_a_sheet() {
 
 #[test]
 fn every_input_has_a_name_and_nothing_leaves_the_page() {
-    for size in [vec2(390.0, 844.0), vec2(844.0, 390.0), vec2(768.0, 1024.0), vec2(1440.0, 900.0), vec2(1920.0, 1080.0)] {
+    for size in [vec2(390.0, 844.0), vec2(844.0, 390.0), vec2(768.0, 1024.0), vec2(1440.0, 900.0), vec2(1920.0, 1080.0)]
+    {
         let page = page_of(size);
         page.check_accessibility();
         let screen = egui::Rect::from_min_size(egui::Pos2::ZERO, size).expand(0.5);

@@ -121,8 +121,18 @@ impl Layout {
         let transport = rest.bottom(TALL);
         let share = egui::lerp(0.52..=0.36, sheet);
         let view = rest.top(rest.0.height() * share);
-        Self { title, view, transport, controls: None, tabbed: None, plane: None, readout: None, plots: None, sheet: true }
-            .with_lower(rest.0, sheet)
+        Self {
+            title,
+            view,
+            transport,
+            controls: None,
+            tabbed: None,
+            plane: None,
+            readout: None,
+            plots: None,
+            sheet: true,
+        }
+        .with_lower(rest.0, sheet)
     }
 
     /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
@@ -131,8 +141,18 @@ impl Layout {
         let title = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
-        Self { title, view: rest.0, transport, controls: None, tabbed: None, plane: None, readout: None, plots: None, sheet: true }
-            .with_lower(side, sheet)
+        Self {
+            title,
+            view: rest.0,
+            transport,
+            controls: None,
+            tabbed: None,
+            plane: None,
+            readout: None,
+            plots: None,
+            sheet: true,
+        }
+        .with_lower(side, sheet)
     }
 
     fn with_lower(self, place: Rect, sheet: f32) -> Self {
@@ -142,10 +162,19 @@ impl Layout {
     /// Every rectangle there is.
     #[must_use]
     pub fn all(&self) -> Vec<Rect> {
-        [Some(self.title), Some(self.view), Some(self.transport), self.controls, self.tabbed, self.plane, self.readout, self.plots]
-            .into_iter()
-            .flatten()
-            .collect()
+        [
+            Some(self.title),
+            Some(self.view),
+            Some(self.transport),
+            self.controls,
+            self.tabbed,
+            self.plane,
+            self.readout,
+            self.plots,
+        ]
+        .into_iter()
+        .flatten()
+        .collect()
     }
 }
 
@@ -177,8 +206,16 @@ mod tests {
     #[test]
     fn nothing_overlaps_or_leaves_the_page() {
         for (width, height) in [
-            (390.0, 844.0), (360.0, 640.0), (320.0, 568.0), (844.0, 390.0), (768.0, 1024.0), (1024.0, 768.0),
-            (1280.0, 720.0), (1440.0, 900.0), (1920.0, 1080.0), (2560.0, 1440.0),
+            (390.0, 844.0),
+            (360.0, 640.0),
+            (320.0, 568.0),
+            (844.0, 390.0),
+            (768.0, 1024.0),
+            (1024.0, 768.0),
+            (1280.0, 720.0),
+            (1440.0, 900.0),
+            (1920.0, 1080.0),
+            (2560.0, 1440.0),
         ] {
             let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
             for sheet in [0.0, 1.0] {
@@ -187,7 +224,10 @@ mod tests {
                     assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
                     assert!(rect.width() >= 180.0 && rect.height() >= 40.0, "{width}×{height}: {rect:?}");
                     for other in &rects[..i] {
-                        assert!(!rect.shrink(0.5).intersects(other.shrink(0.5)), "{width}×{height}: {rect:?} {other:?}");
+                        assert!(
+                            !rect.shrink(0.5).intersects(other.shrink(0.5)),
+                            "{width}×{height}: {rect:?} {other:?}"
+                        );
                     }
                 }
             }

@@ -39,7 +39,9 @@ impl Quantity {
             Self::Angle => &[("°", DEGREE), ("deg", DEGREE), ("degrees", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
             Self::Time => &[("s", 1.0), ("ms", 1e-3)],
             Self::Ratio => &[("%", 1e-2)],
-            Self::Moment => &[("N·m", 1.0), ("Nm", 1.0), ("N m", 1.0), ("mN·m", 1e-3), ("mNm", 1e-3), ("N·mm", 1e-3), ("Nmm", 1e-3)],
+            Self::Moment => {
+                &[("N·m", 1.0), ("Nm", 1.0), ("N m", 1.0), ("mN·m", 1e-3), ("mNm", 1e-3), ("N·mm", 1e-3), ("Nmm", 1e-3)]
+            }
             Self::Force => &[("N", 1.0), ("mN", 1e-3)],
             Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3)],
             Self::AngularSpeed => &[("°/s", DEGREE), ("deg/s", DEGREE), ("rad/s", 1.0)],
@@ -180,7 +182,8 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused_in_words() {
-        for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)] {
+        for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)]
+        {
             let message = Quantity::Length.parse(text).expect_err(text);
             assert!(message.contains('“') && message.chars().count() < 80, "{message}");
         }

@@ -11,8 +11,8 @@ use crate::app::widgets::icon::{self, Icon};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::slider::{Slider, slider};
-use crate::app::widgets::toggle::toggle;
 use crate::app::widgets::text;
+use crate::app::widgets::toggle::toggle;
 use crate::experiment::Scenario;
 
 const LINE: f32 = 24.0;
@@ -41,7 +41,9 @@ fn heading(ui: &mut Ui, rect: Rect, label: &str, tip: &str, differs: bool) -> bo
         return false;
     }
     let place = Rect::from_center_size(drawn.right_center() + vec2(15.0, 0.0), vec2(22.0, 22.0));
-    ui.push_id(label, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain)).inner.clicked()
+    ui.push_id(label, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
+        .inner
+        .clicked()
 }
 
 /// Shows a number's row.
@@ -71,14 +73,18 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
 
     let track = Rect::from_min_size(line.left_bottom(), vec2(width, RAIL));
     let spoken = if unit.is_empty() { shown } else { format!("{shown} {unit}") };
-    let moved = slider(ui, track, &Slider {
-        label: control.label,
-        spoken: &spoken,
-        rail: Rail { range: (control.range)(scenario), scale: control.scale },
-        value: value.or(*remembered).unwrap_or(0.0),
-        notch: control.value(base),
-        on: value.is_some(),
-    });
+    let moved = slider(
+        ui,
+        track,
+        &Slider {
+            label: control.label,
+            spoken: &spoken,
+            rail: Rail { range: (control.range)(scenario), scale: control.scale },
+            value: value.or(*remembered).unwrap_or(0.0),
+            notch: control.value(base),
+            on: value.is_some(),
+        },
+    );
     let tip = control.tip;
     moved.0.on_hover_ui(|ui| {
         ui.label(tip);

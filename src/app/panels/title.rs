@@ -65,7 +65,9 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
 /// The mark: an arc and the point it turns about.
 fn mark(ui: &Ui, center: egui::Pos2, theme: &Theme) {
     let hub = center + vec2(5.0, 5.0);
-    let points = (0..=20).map(|i| hub + 12.0 * egui::Vec2::angled(std::f32::consts::PI * (0.94 + 0.62 * i as f32 / 20.0))).collect();
+    let points = (0..=20)
+        .map(|i| hub + 12.0 * egui::Vec2::angled(std::f32::consts::PI * (0.94 + 0.62 * i as f32 / 20.0)))
+        .collect();
     ui.painter().line(points, egui::Stroke::new(2.6, theme.ink));
     ui.painter().circle_filled(hub, 2.8, theme.accent);
 }
