@@ -164,7 +164,8 @@ fn a_translucent_body_lets_through_what_is_behind() {
 fn each_marker_has_its_form() {
     let camera = level();
     // Points from the middle, as parts of the half size, and whether there is colour.
-    let forms: [(Shape, &[(f32, f32, bool)]); 6] = [
+    type Probe = (f32, f32, bool);
+    let forms: [(Shape, &[Probe]); 6] = [
         (
             Shape::Circle,
             &[(0.0, 0.0, true), (0.6, 0.6, true), (0.85, 0.85, false)],
@@ -308,8 +309,8 @@ fn bodies_throw_a_shadow_on_the_floor() {
     };
     let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 1.4);
     let studio = flat(Color::WHITE);
-    // The light comes from the front right, so the shadow lies behind to the left.
-    let (in_shadow, in_light) = (Vec3::new(-0.29, 0.1, 0.0), Vec3::new(0.6, -0.2, 0.0));
+    // The light comes from the front left, so the shadow lies behind to the right.
+    let (in_shadow, in_light) = (Vec3::new(0.1, 0.3, 0.0), Vec3::new(-0.6, -0.2, 0.0));
     let picture = shown(&scene, &camera, &studio);
     assert!(at(&picture, &camera, in_shadow)[1] < 120);
     assert!(at(&picture, &camera, in_light)[1] > 240);
