@@ -308,9 +308,12 @@ fn bodies_throw_a_shadow_on_the_floor() {
         ..Default::default()
     };
     let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 1.4);
-    let studio = flat(Color::WHITE);
-    // The light comes from the front left, so the shadow lies behind to the right.
-    let (in_shadow, in_light) = (Vec3::new(0.1, 0.3, 0.0), Vec3::new(-0.6, -0.2, 0.0));
+    // Light from the left at 45°: the shadow lies to the right.
+    let studio = Studio {
+        key_from: Vec3::new(-1.0, 0.0, 1.0),
+        ..flat(Color::WHITE)
+    };
+    let (in_shadow, in_light) = (Vec3::new(0.4, 0.0, 0.0), Vec3::new(-0.4, 0.0, 0.0));
     let picture = shown(&scene, &camera, &studio);
     assert!(at(&picture, &camera, in_shadow)[1] < 120);
     assert!(at(&picture, &camera, in_light)[1] > 240);
