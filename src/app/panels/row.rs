@@ -16,7 +16,7 @@ use crate::app::widgets::text;
 use crate::experiment::Scenario;
 
 const LINE: f32 = 24.0;
-const RAIL: f32 = 20.0;
+const RAIL: f32 = 19.0;
 const FIELD: f32 = 84.0;
 
 /// What a row needs to know besides its control.
@@ -89,7 +89,7 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     if let Some(note) = note {
         refusal(ui, note);
     }
-    ui.add_space(2.0);
+    ui.add_space(5.0);
 }
 
 /// Shows a choice's row.
@@ -107,7 +107,7 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     if let Some(note) = context.note {
         refusal(ui, note);
     }
-    ui.add_space(4.0);
+    ui.add_space(6.0);
 }
 
 /// Says what was refused.
