@@ -20,11 +20,12 @@
 //!
 //! Where the printed equations are wrong, `docs/MODEL.md` says how, and `tests/it/misprints.rs` shows it.
 
-pub mod experiment;
-pub mod model;
-pub mod scene;
-
 #[cfg(feature = "app")]
 pub mod app;
+#[cfg(feature = "cli")]
+pub mod cli;
+pub mod experiment;
+pub mod model;
 #[cfg(feature = "app")]
 pub mod render;
+pub mod scene;

@@ -1,2 +1,7 @@
-//! Headless command.
-fn main() {}
+//! The headless command; see [`centrode::cli`].
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    centrode::cli::main()
+}

@@ -11,6 +11,7 @@ pub mod fonts;
 mod keys;
 pub mod layout;
 pub mod memo;
+pub mod notation;
 pub mod panels;
 pub mod plane;
 pub mod plots;

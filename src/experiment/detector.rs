@@ -107,7 +107,9 @@ impl Detector {
         ];
         for (which, (method, value, threshold, judged)) in values.into_iter().enumerate() {
             // What is not defined or not judged leaves the alarm as it was.
-            let (Some(threshold), true) = (threshold, judged && !value.is_nan()) else { continue };
+            let (Some(threshold), true) = (threshold, judged && !value.is_nan()) else {
+                continue;
+            };
             let above = armed && value > threshold;
             let was = std::mem::replace(&mut self.above[which], above);
             if above && !was {

@@ -34,7 +34,12 @@ impl<const D: usize> MovingAverage<D> {
     /// The change is exactly zero when the vector that comes equals the one that goes. The first is zero.
     pub fn push(&mut self, next: &[f64; D]) -> ([f64; D], [f64; D]) {
         let growing = self.ring.len() < self.length;
-        let gone = if growing { self.mean } else { self.ring[self.oldest] };
+        // What a new vector is measured against: while the mean grows, the mean itself.
+        let gone = match (self.ring.first(), growing) {
+            (None, _) => *next,
+            (Some(_), true) => self.mean,
+            (Some(_), false) => self.ring[self.oldest],
+        };
         if growing {
             self.ring.push(*next);
         } else {
@@ -50,9 +55,6 @@ impl<const D: usize> MovingAverage<D> {
             self.add(i, *x);
             self.mean[i] = (self.sum[i] + self.error[i]) / count;
             change[i] = (x - gone[i]) / count;
-        }
-        if self.ring.len() == 1 {
-            change = [0.0; D];
         }
         (self.mean, change)
     }
@@ -165,19 +167,20 @@ mod tests {
     #[test]
     fn does_not_drift_over_an_hour() {
         let unit = 1.0 / (1i64 << 40) as f64;
+        // A large step that comes and goes is what spoils a plain running sum.
+        let step = |k: u64| {
+            if (1_000_000..1_000_100).contains(&k) { 1_000_000_000 } else { 1 }
+        };
         let length = 500;
         let mut average = MovingAverage::<1>::new(length);
-        let mut exact: i64 = 0;
+        let mut exact = 0i128;
         for k in 0..3_600_000u64 {
-            // A large step that comes and goes is what spoils a plain running sum.
-            let size = if (1_000_000..1_000_100).contains(&k) { 1e9 } else { 1.0 };
-            exact += reading(k) * size as i64;
-            if k >= length as u64 {
-                let old = k - length as u64;
-                let size = if (1_000_000..1_000_100).contains(&old) { 1e9 } else { 1.0 };
-                exact -= reading(old) * size as i64;
+            let value = i128::from(reading(k)) * step(k);
+            exact += value;
+            if let Some(old) = k.checked_sub(length as u64) {
+                exact -= i128::from(reading(old)) * step(old);
             }
-            let mean = average.push(&[reading(k) as f64 * unit * size]).0[0];
+            let mean = average.push(&[reading(k) as f64 * step(k) as f64 * unit]).0[0];
             if k > 3_500_000 {
                 let reference = exact as f64 * unit / length as f64;
                 assert!((mean - reference).abs() <= 2.0 * f64::EPSILON * reference.abs(), "{k}: {mean} {reference}");

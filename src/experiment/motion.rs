@@ -12,5 +12,6 @@ pub fn command(motion: &Motion, time: f64) -> (f64, f64) {
     let progress = u * u * u * (10.0 + u * (6.0 * u - 15.0));
     let speed = 30.0 * (u * v) * (u * v) / duration;
     let theta_l = if u == 1.0 { motion.theta_end } else { motion.theta_start + travel * progress };
-    (theta_l, travel * speed)
+    // At rest the rate is 0, not the −0 of a motion downward.
+    (theta_l, travel * speed + 0.0)
 }

@@ -29,11 +29,7 @@ pub fn to_euler(rotation: &Mat3) -> [f64; 3] {
     if sine.abs() == 1.0 {
         return [atan2(-rotation[(0, 1)], rotation[(1, 1)]), asin(sine), 0.0];
     }
-    [
-        atan2(rotation[(1, 0)], rotation[(0, 0)]),
-        asin(sine),
-        atan2(rotation[(2, 1)], rotation[(2, 2)]),
-    ]
+    [atan2(rotation[(1, 0)], rotation[(0, 0)]), asin(sine), atan2(rotation[(2, 1)], rotation[(2, 2)])]
 }
 
 /// A quaternion, scalar first; of unit length when it stands for one rotation.
@@ -43,12 +39,7 @@ pub type Quaternion = [f64; 4];
 #[must_use]
 pub fn quaternion_from_euler(angles: &[f64; 3]) -> Quaternion {
     let [(sa, ca), (se, ce), (sr, cr)] = angles.map(|angle| sincos(0.5 * angle));
-    [
-        ca * ce * cr + sa * se * sr,
-        ca * ce * sr - sa * se * cr,
-        ca * se * cr + sa * ce * sr,
-        sa * ce * cr - ca * se * sr,
-    ]
+    [ca * ce * cr + sa * se * sr, ca * ce * sr - sa * se * cr, ca * se * cr + sa * ce * sr, sa * ce * cr - ca * se * sr]
 }
 
 /// The vector part of `a · conj(b)`.
@@ -61,11 +52,7 @@ pub fn vector_of_ratio(a: &Quaternion, b: &Quaternion) -> Vec3 {
 /// The vector of the skew part of a matrix: the inverse of the hat, [·]^∨.
 #[must_use]
 pub fn vee(matrix: &Mat3) -> Vec3 {
-    0.5 * Vec3::new(
-        matrix[(2, 1)] - matrix[(1, 2)],
-        matrix[(0, 2)] - matrix[(2, 0)],
-        matrix[(1, 0)] - matrix[(0, 1)],
-    )
+    0.5 * Vec3::new(matrix[(2, 1)] - matrix[(1, 2)], matrix[(0, 2)] - matrix[(2, 0)], matrix[(1, 0)] - matrix[(0, 1)])
 }
 
 #[cfg(test)]

@@ -217,9 +217,7 @@ fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
     not_negative("load_cells.noise", cells.noise, "N")?;
     demand(cells.preload.is_finite(), "load_cells.preload", cells.preload, "a finite force in N")?;
     let detection = &scenario.detection;
-    for (key, threshold, unit) in
-        [("detection.xi1", detection.xi1, "N·m"), ("detection.xi2", detection.xi2, "m")]
-    {
+    for (key, threshold, unit) in [("detection.xi1", detection.xi1, "N·m"), ("detection.xi2", detection.xi2, "m")] {
         if let Threshold::On(value) = threshold {
             let allowed = format!("a finite number, 0 {unit} or more, or \"off\"");
             demand(value >= 0.0 && value.is_finite(), key, value, &allowed)?;

@@ -20,7 +20,15 @@ macro_rules! presets {
 
 /// All of them; the page opens on the first.
 pub const PRESETS: &[Preset] = presets![
-    "bench", "paper", "disk-1", "disk-3", "free", "mid-gap", "static-resolution", "gimbal-lock", "out-and-in",
+    "bench",
+    "paper",
+    "disk-1",
+    "disk-3",
+    "free",
+    "mid-gap",
+    "static-resolution",
+    "gimbal-lock",
+    "out-and-in",
 ];
 
 impl Preset {

@@ -2,7 +2,7 @@
 
 use super::cells::SimulatedCells;
 use super::detector::{Crossing, Detection, Detector, Judgement, Measurement};
-use super::filter::PoseFilter;
+use super::filter::{Motion, PoseFilter};
 use super::plant::Plant;
 use super::scenario::Scenario;
 use super::tracker::{Reading, SimulatedTracker};
@@ -22,8 +22,8 @@ pub struct Sample {
     pub in_contact: bool,
     /// The tracker's reading, as held.
     pub reading: Reading,
-    /// p_s, the filtered position in {B}, m.
-    pub filtered_position: Vec3,
+    /// Position and motion of the end disk as the filtered tracker shows them.
+    pub motion: Motion,
     /// Load cell readings τ_lc, N. NaN where the statics are not defined.
     pub tau_lc: Vec3,
     /// What the two methods make of it.
@@ -59,9 +59,9 @@ pub const CHANNELS: &[Channel] = channels! {
     "tracker_azimuth", "rad", x => x.reading.angles[0];
     "tracker_elevation", "rad", x => x.reading.angles[1];
     "tracker_roll", "rad", x => x.reading.angles[2];
-    "filtered_x", "m", x => x.filtered_position.x;
-    "filtered_y", "m", x => x.filtered_position.y;
-    "filtered_z", "m", x => x.filtered_position.z;
+    "filtered_x", "m", x => x.motion.position.x;
+    "filtered_y", "m", x => x.motion.position.y;
+    "filtered_z", "m", x => x.motion.position.z;
     "model_centrode_x", "m", x => x.judgement.model_centrode.x;
     "model_centrode_y", "m", x => x.judgement.model_centrode.y;
     "model_centrode_z", "m", x => x.judgement.model_centrode.z;
@@ -155,7 +155,7 @@ impl Iterator for Simulation<'_> {
             theta_l_rate,
             in_contact,
             reading,
-            filtered_position: motion.position,
+            motion,
             tau_lc,
             judgement,
         })

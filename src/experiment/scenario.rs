@@ -194,14 +194,18 @@ impl TryFrom<ContactKeys> for Contact {
     fn try_from(keys: ContactKeys) -> Result<Self, Self::Error> {
         let default = Self::default();
         let place = match (keys.disk, keys.arc_length) {
-            (Some(_), Some(_)) => return Err("holds both disk and arc_length; only one of them is allowed"),
+            (Some(_), Some(_)) => {
+                return Err("holds both disk and arc_length; only one of them is allowed");
+            }
             (Some(0), None) => Place::Nowhere,
             (Some(disk), None) => Place::Disk(disk),
             (None, Some(s)) => Place::ArcLength(s),
             (None, None) => default.place,
         };
         let start = match (keys.time, keys.bend) {
-            (Some(_), Some(_)) => return Err("holds both time and bend; only one of them is allowed"),
+            (Some(_), Some(_)) => {
+                return Err("holds both time and bend; only one of them is allowed");
+            }
             (Some(time), None) => Start::Time(time),
             (None, Some(bend)) => Start::Bend(bend),
             (None, None) => default.start,
@@ -233,7 +237,7 @@ pub struct Tracker {
     pub rate: f64,
     /// Standard deviation of white noise on each coordinate of a reading, m (default none: illustrative).
     pub position_noise: f64,
-    /// Standard deviation of white noise on each angle of a reading, rad (default none: illustrative).
+    /// Standard deviation of the white noise that turns the marker about each axis of {B}, rad (default none: illustrative).
     pub orientation_noise: f64,
     /// Coordinates are rounded to multiples of this, m; 0 does not round (default 0: illustrative).
     pub position_resolution: f64,
@@ -329,7 +333,7 @@ pub struct Thresholds {
 
 impl Default for Thresholds {
     fn default() -> Self {
-        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.02 }
+        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.05 }
     }
 }
 

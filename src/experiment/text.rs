@@ -17,6 +17,12 @@ pub struct Draft {
 }
 
 impl Draft {
+    /// From a scenario in hand.
+    #[must_use]
+    pub fn from_scenario(scenario: &Scenario) -> Self {
+        Self { table: Table::try_from(scenario).unwrap_or_default() }
+    }
+
     /// From a file's bytes.
     ///
     /// # Errors
@@ -77,14 +83,23 @@ impl Draft {
         Ok(())
     }
 
+    /// The draft itself when every key in it exists.
+    ///
+    /// # Errors
+    /// The first key that does not.
+    pub fn known_keys_only(self) -> Result<Self, ScenarioError> {
+        check_keys(&self.table)?;
+        Ok(self)
+    }
+
     /// The scenario, checked.
     ///
     /// # Errors
     /// The first key that is unknown or value that is impossible.
     pub fn finish(self) -> Result<Scenario, ScenarioError> {
-        check_keys(&self.table)?;
-        let scenario: Scenario = serde_path_to_error::deserialize(Value::Table(self.table.clone()))
-            .map_err(|error| type_error(&self.table, &error))?;
+        let this = self.known_keys_only()?;
+        let scenario: Scenario = serde_path_to_error::deserialize(Value::Table(this.table.clone()))
+            .map_err(|error| type_error(&this.table, &error))?;
         Plan::new(&scenario)?;
         Ok(scenario)
     }
@@ -129,7 +144,9 @@ fn known_keys(group: &str) -> Option<Vec<String>> {
 
 fn check_keys(table: &Table) -> Result<(), ScenarioError> {
     fn walk(table: &Table, group: &str) -> Result<(), ScenarioError> {
-        let Some(known) = known_keys(group) else { return Ok(()) };
+        let Some(known) = known_keys(group) else {
+            return Ok(());
+        };
         for (key, value) in table {
             let path = if group.is_empty() { key.clone() } else { format!("{group}.{key}") };
             if !known.contains(key) {
@@ -166,15 +183,6 @@ fn type_error(table: &Table, error: &serde_path_to_error::Error<toml::de::Error>
         _ => "a number",
     };
     ScenarioError::Value { key: path, value, allowed: allowed.into() }
-}
-
-impl Draft {
-    /// From a scenario in hand.
-    #[must_use]
-    pub fn from_scenario(scenario: &Scenario) -> Self {
-        let table = Table::try_from(scenario).unwrap_or_default();
-        Self { table }
-    }
 }
 
 #[cfg(test)]
@@ -214,7 +222,9 @@ mod tests {
     #[test]
     fn a_scenario_survives_its_own_text() {
         let mut draft = Draft::from_scenario(&Scenario::default());
-        for text in ["contact.arc_length=0.011", "contact.bend=0.4", "detection.xi1=off", "seed=99", "robot.disks=[0.01]"] {
+        for text in
+            ["contact.arc_length=0.011", "contact.bend=0.4", "detection.xi1=off", "seed=99", "robot.disks=[0.01]"]
+        {
             draft.set(text).expect(text);
         }
         let scenario = draft.finish().expect("valid");

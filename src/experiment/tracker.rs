@@ -1,10 +1,10 @@
 //! The tracker: a marker's position and Euler angles, refreshed, aged, disturbed, rounded and held.
 
+use super::Plan;
 use super::noise::{Normal, Source};
-use super::orientation::to_euler;
+use super::orientation::{from_euler, to_euler};
 use super::plant::Plant;
 use super::scenario::{Mounting, Tracker};
-use super::Plan;
 use crate::model::{Mat3, Vec3};
 use libm::{floor, rint, sincos};
 use std::f64::consts::{PI, TAU};
@@ -66,22 +66,31 @@ impl SimulatedTracker {
 
     fn measure(&mut self, plant: &Plant, time: f64) -> Reading {
         let tip = plant.shape(plant.command(time).0).tip_pose();
-        let (settings, noise) = (&self.settings, &mut self.noise);
-        let mut disturb = |value: f64, deviation: f64, resolution: f64| {
-            let noisy = if deviation > 0.0 { value + deviation * noise.draw() } else { value };
-            if resolution > 0.0 { resolution * rint(noisy / resolution) } else { noisy }
+        let settings = &self.settings;
+        let noise = |noise: &mut Normal, deviation: f64| {
+            if deviation > 0.0 { deviation * noise.draw() } else { 0.0 }
         };
-        let position = tip.position.map(|x| disturb(x, settings.position_noise, settings.position_resolution));
-        let before = self.held.map(|(_, reading)| reading.angles);
-        let mut angles = to_euler(&(tip.rotation * self.tip_from_marker));
-        for (i, angle) in angles.iter_mut().enumerate() {
-            *angle = disturb(*angle, settings.orientation_noise, settings.orientation_resolution);
-            if let Some(before) = before {
-                *angle = unwrapped(*angle, before[i]);
+        let position = tip.position.map(|x| {
+            let disturbed = x + noise(&mut self.noise, settings.position_noise);
+            rounded(disturbed, settings.position_resolution)
+        });
+        let mut rotation = tip.rotation * self.tip_from_marker;
+        if settings.orientation_noise > 0.0 {
+            rotation = from_euler(&[(); 3].map(|()| noise(&mut self.noise, settings.orientation_noise))) * rotation;
+        }
+        let mut angles = to_euler(&rotation).map(|angle| rounded(angle, settings.orientation_resolution));
+        if let Some((_, before)) = &self.held {
+            for (angle, before) in angles.iter_mut().zip(before.angles) {
+                *angle = unwrapped(*angle, before);
             }
         }
         Reading { position, angles }
     }
+}
+
+/// The multiple of `step` nearest to `value`; `value` itself for a step of 0.
+fn rounded(value: f64, step: f64) -> f64 {
+    if step > 0.0 { step * rint(value / step) } else { value }
 }
 
 /// `angle` plus the whole turns that bring it nearest to `before`.

@@ -1,10 +1,9 @@
 //! Where the segment is in its configuration space ψ = (θL, δ), and how fast it moves there.
+//!
+//! θ0 is the double nearest to π/2: θL = [`FRAC_PI_2`] is straight exactly, and small bends keep their digits.
 
 use libm::sincos;
 use std::f64::consts::FRAC_PI_2;
-
-/// π/2 minus the double nearest to it: with it, `π/2 − θL` is exact to rounding for every double θL.
-const FRAC_PI_2_TAIL: f64 = 6.123_233_995_736_766e-17;
 
 /// A configuration ψ = (θL, δ), held as the bend φ = π/2 − θL so that small bends keep their digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,16 +59,16 @@ impl Configuration {
     }
 }
 
-/// φ = π/2 − θL (rad), exact to rounding.
+/// φ = θ0 − θL (rad).
 #[must_use]
 pub fn bend_from_theta_l(theta_l: f64) -> f64 {
-    (FRAC_PI_2 - theta_l) + FRAC_PI_2_TAIL
+    FRAC_PI_2 - theta_l
 }
 
-/// θL = π/2 − φ (rad), exact to rounding.
+/// θL = θ0 − φ (rad).
 #[must_use]
 pub fn theta_l_from_bend(bend: f64) -> f64 {
-    (FRAC_PI_2 - bend) + FRAC_PI_2_TAIL
+    FRAC_PI_2 - bend
 }
 
 /// The configuration's velocity ψ̇ = (θ̇L, δ̇), rad/s.

@@ -87,8 +87,7 @@ impl Segment {
         let bend = configuration.bend();
         let compliance = self.secondary_compliance(configuration);
         let through_lengths = -self.pitch_radius / self.length * compliance.slope;
-        let by_bend =
-            bend / self.length * (self.ep_ip + self.es_is * (compliance.sum + 0.5 * bend * through_lengths));
+        let by_bend = bend / self.length * (self.ep_ip + self.es_is * (compliance.sum + 0.5 * bend * through_lengths));
         Covector {
             theta_l: -by_bend,
             delta_per_bend: bend / (2.0 * self.length) * self.es_is * compliance.slope_delta,

@@ -76,22 +76,14 @@ impl Batch {
     }
 
     fn add(&mut self, scene: &Scene, wanted: Layer) {
-        let Self {
-            mesh,
-            parts,
-            plates,
-            ..
-        } = self;
+        let Self { mesh, parts, plates, .. } = self;
         let mut body = |mesh: &mut Mesh, draw: &mut dyn FnMut(&mut Mesh)| {
             let (vertices, indices) = (mesh.vertices.len(), mesh.indices.len() as u32);
             draw(mesh);
             let new = &mesh.vertices[vertices..];
             if wanted != Layer::Opaque && !new.is_empty() {
                 let sum: Vec3 = new.iter().map(|v| Vec3::from(v.position)).sum();
-                parts.push(Part {
-                    indices: indices..mesh.indices.len() as u32,
-                    center: sum / new.len() as f32,
-                });
+                parts.push(Part { indices: indices..mesh.indices.len() as u32, center: sum / new.len() as f32 });
             }
         };
         for tube in &scene.tubes {
@@ -135,10 +127,7 @@ fn ball(mesh: &Mesh) -> Option<Ball> {
         high = high.max(p);
     }
     let radius = 0.515 * (high - low).length();
-    (radius > 0.0 && radius.is_finite()).then(|| Ball {
-        center: 0.5 * (low + high),
-        radius,
-    })
+    (radius > 0.0 && radius.is_finite()).then(|| Ball { center: 0.5 * (low + high), radius })
 }
 
 #[cfg(test)]
@@ -168,9 +157,7 @@ mod tests {
         batch.fill(&demo::scene(&Palette::LIGHT, 1.3));
         let eye = Vec3::new(0.05, -0.1, 0.04);
         batch.sort(eye);
-        assert!(batch.parts.windows(2).all(|w| {
-            w[0].center.distance(eye) >= w[1].center.distance(eye)
-        }));
+        assert!(batch.parts.windows(2).all(|w| { w[0].center.distance(eye) >= w[1].center.distance(eye) }));
     }
 
     #[test]

@@ -10,12 +10,7 @@ pub(super) struct Reused {
 
 impl Reused {
     pub(super) fn new(label: &'static str, usage: wgpu::BufferUsages) -> Self {
-        Self {
-            label,
-            usage: usage | wgpu::BufferUsages::COPY_DST,
-            buffer: None,
-            used: 0,
-        }
+        Self { label, usage: usage | wgpu::BufferUsages::COPY_DST, buffer: None, used: 0 }
     }
 
     /// Replaces the content. What no buffer of this device can hold is not taken: the buffer is then empty.

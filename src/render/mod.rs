@@ -21,8 +21,8 @@ mod view;
 
 use std::collections::HashMap;
 
-pub use pipelines::SHADERS;
 use pipelines::Pipelines;
+pub use pipelines::SHADERS;
 use view::View;
 
 use crate::scene::{Camera, Scene, Studio};
@@ -59,10 +59,7 @@ pub struct Renderer {
 impl Renderer {
     /// Makes everything that does not depend on a scene. `target_format` is that of the pass given to [`Self::paint`].
     pub fn new(device: &wgpu::Device, target_format: wgpu::TextureFormat) -> Self {
-        Self {
-            pipelines: Pipelines::new(device, target_format),
-            views: HashMap::new(),
-        }
+        Self { pipelines: Pipelines::new(device, target_format), views: HashMap::new() }
     }
 
     /// Draws a frame into its view's picture. Returns false when the picture already shows it and nothing was done.
@@ -76,9 +73,7 @@ impl Renderer {
         frame: &Frame<'_>,
     ) -> bool {
         let Self { pipelines, views } = self;
-        let view = views
-            .entry(frame.view)
-            .or_insert_with(|| View::new(device, pipelines));
+        let view = views.entry(frame.view).or_insert_with(|| View::new(device, pipelines));
         view.draw(device, queue, encoder, pipelines, frame)
     }
 

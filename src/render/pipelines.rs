@@ -84,10 +84,7 @@ impl Pipelines {
 
         let strip = wgpu::PrimitiveTopology::TriangleStrip;
         let list = wgpu::PrimitiveTopology::TriangleList;
-        let (nearer, hidden) = (
-            wgpu::CompareFunction::LessEqual,
-            wgpu::CompareFunction::Greater,
-        );
+        let (nearer, hidden) = (wgpu::CompareFunction::LessEqual, wgpu::CompareFunction::Greater);
         let solid = |label, blend| {
             scene_pipeline(
                 device,
@@ -161,30 +158,9 @@ impl Pipelines {
             opaque: solid("opaque", false),
             translucent: solid("translucent", true),
             line: overlay("line", LINE, "vs_line", "fs_line", Piece::LAYOUT, nearer),
-            line_hidden: overlay(
-                "hidden line",
-                LINE,
-                "vs_line",
-                "fs_line_hidden",
-                Piece::LAYOUT,
-                hidden,
-            ),
-            marker: overlay(
-                "marker",
-                MARKER,
-                "vs_marker",
-                "fs_marker",
-                Sign::LAYOUT,
-                nearer,
-            ),
-            marker_hidden: overlay(
-                "hidden marker",
-                MARKER,
-                "vs_marker",
-                "fs_marker_hidden",
-                Sign::LAYOUT,
-                hidden,
-            ),
+            line_hidden: overlay("hidden line", LINE, "vs_line", "fs_line_hidden", Piece::LAYOUT, hidden),
+            marker: overlay("marker", MARKER, "vs_marker", "fs_marker", Sign::LAYOUT, nearer),
+            marker_hidden: overlay("hidden marker", MARKER, "vs_marker", "fs_marker_hidden", Sign::LAYOUT, hidden),
             blit: blit_pipeline(device, &blitting, target),
             globals_layout,
             shadow_layout,
@@ -236,19 +212,14 @@ fn scene_pipeline(device: &wgpu::Device, kind: &Kind<'_>) -> wgpu::RenderPipelin
             stencil: wgpu::StencilState::default(),
             bias: wgpu::DepthBiasState::default(),
         }),
-        multisample: wgpu::MultisampleState {
-            count: SAMPLES,
-            ..Default::default()
-        },
+        multisample: wgpu::MultisampleState { count: SAMPLES, ..Default::default() },
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some(kind.fragment),
             compilation_options: wgpu::PipelineCompilationOptions::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: COLOR,
-                blend: kind
-                    .blend
-                    .then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+                blend: kind.blend.then_some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
                 write_mask: wgpu::ColorWrites::ALL,
             })],
         }),
@@ -257,10 +228,7 @@ fn scene_pipeline(device: &wgpu::Device, kind: &Kind<'_>) -> wgpu::RenderPipelin
     })
 }
 
-fn shadow_pipeline(
-    device: &wgpu::Device,
-    layout: &wgpu::PipelineLayout,
-) -> wgpu::RenderPipeline {
+fn shadow_pipeline(device: &wgpu::Device, layout: &wgpu::PipelineLayout) -> wgpu::RenderPipeline {
     let module = module(device, "shadow", SHADOW);
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("shadow"),
@@ -280,11 +248,7 @@ fn shadow_pipeline(
             depth_write_enabled: Some(true),
             depth_compare: Some(wgpu::CompareFunction::Less),
             stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState {
-                constant: 2,
-                slope_scale: 1.5,
-                clamp: 0.0,
-            },
+            bias: wgpu::DepthBiasState { constant: 2, slope_scale: 1.5, clamp: 0.0 },
         }),
         multisample: wgpu::MultisampleState::default(),
         fragment: None,
@@ -299,11 +263,7 @@ fn blit_pipeline(
     target: wgpu::TextureFormat,
 ) -> wgpu::RenderPipeline {
     let module = module(device, "blit", BLIT);
-    let fragment = if target.is_srgb() {
-        "fs_blit_srgb"
-    } else {
-        "fs_blit"
-    };
+    let fragment = if target.is_srgb() { "fs_blit_srgb" } else { "fs_blit" };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("blit"),
         layout: Some(layout),
@@ -367,10 +327,7 @@ fn blit_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
     })
 }
 
-fn texture_entry(
-    binding: u32,
-    sample_type: wgpu::TextureSampleType,
-) -> wgpu::BindGroupLayoutEntry {
+fn texture_entry(binding: u32, sample_type: wgpu::TextureSampleType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry {
         binding,
         visibility: wgpu::ShaderStages::FRAGMENT,

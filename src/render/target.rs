@@ -31,11 +31,7 @@ impl Target {
             device
                 .create_texture(&wgpu::TextureDescriptor {
                     label: Some(label),
-                    size: wgpu::Extent3d {
-                        width: size[0],
-                        height: size[1],
-                        depth_or_array_layers: 1,
-                    },
+                    size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
                     mip_level_count: 1,
                     sample_count,
                     dimension: wgpu::TextureDimension::D2,
@@ -48,33 +44,16 @@ impl Target {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let samples = texture("scene samples", COLOR, SAMPLES, attachment);
         let depth = texture("scene depth", DEPTH, SAMPLES, attachment);
-        let resolved = texture(
-            "scene resolved",
-            COLOR,
-            1,
-            attachment | wgpu::TextureUsages::TEXTURE_BINDING,
-        );
+        let resolved = texture("scene resolved", COLOR, 1, attachment | wgpu::TextureUsages::TEXTURE_BINDING);
         let blit = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene blit"),
             layout: blit_layout,
             entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&resolved),
-                },
-                wgpu::BindGroupEntry {
-                    binding: 1,
-                    resource: wgpu::BindingResource::Sampler(sampler),
-                },
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&resolved) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::Sampler(sampler) },
             ],
         });
-        Self {
-            size,
-            samples,
-            depth,
-            resolved,
-            blit,
-        }
+        Self { size, samples, depth, resolved, blit }
     }
 }
 

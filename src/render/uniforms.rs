@@ -34,7 +34,7 @@ const _: () = assert!(size_of::<Globals>() == 2 * 64 + 14 * 16 + 4 * 16);
 /// Edge of the shadow map, in texels.
 pub(super) const SHADOW_TEXELS: u32 = 1024;
 /// Radius over which shadows on the floor are averaged, in m.
-const GROUND_SOFTNESS: f32 = 0.0011;
+const GROUND_SOFTNESS: f32 = 0.0017;
 /// The same on bodies.
 const BODY_SOFTNESS: f32 = 0.00022;
 
@@ -59,20 +59,15 @@ pub(super) struct Inputs<'a> {
 
 impl Globals {
     pub(super) fn new(inputs: &Inputs<'_>) -> Self {
-        let Inputs {
-            camera,
-            studio,
-            ground,
-            size,
-            pixels_per_point,
-            casters,
-        } = *inputs;
+        let Inputs { camera, studio, ground, size, pixels_per_point, casters } = *inputs;
         let size = Vec2::new(size[0] as f32, size[1] as f32);
         let key = studio.key_from.try_normalize().unwrap_or(Vec3::Z);
         let (right, up) = camera.axes();
         let back = camera.backward();
         let fill = (back * 0.7 - right * 0.9 + up * 0.25).normalize();
 
+        // A surface must not fall into its own shadow, over the width that is averaged.
+        let stand_off = casters.map_or(0.0, |ball| 3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * BODY_SOFTNESS);
         let (light, shadow) = match casters {
             Some(ball) => (
                 light_from_scene(key, ball),
@@ -90,7 +85,7 @@ impl Globals {
             clip_from_scene: camera.view_projection(size).to_cols_array_2d(),
             light_from_scene: light.to_cols_array_2d(),
             eye: camera.eye(size).extend(0.0).to_array(),
-            viewport: [size.x, size.y, pixels_per_point, 0.0],
+            viewport: [size.x, size.y, pixels_per_point, stand_off],
             key: key.extend(studio.key).to_array(),
             fill: fill.extend(studio.fill).to_array(),
             rim: back.extend(studio.rim).to_array(),
@@ -103,12 +98,7 @@ impl Globals {
         globals.shadow = shadow;
         if let Some(ground) = ground {
             globals.ground = ground.center.extend(ground.radius).to_array();
-            globals.grid = [
-                ground.spacing.max(0.0),
-                ground.major.max(1) as f32,
-                ground.shadow,
-                0.0,
-            ];
+            globals.grid = [ground.spacing.max(0.0), ground.major.max(1) as f32, ground.shadow, 0.0];
             globals.grid_color = ground.line.to_array();
             globals.glow = ground.glow.to_array();
             for (slot, spot) in globals.contacts.iter_mut().zip(&ground.contacts) {
@@ -124,14 +114,7 @@ fn light_from_scene(key: Vec3, ball: Ball) -> Mat4 {
     let Ball { center, radius } = ball;
     let up = if key.z.abs() > 0.99 { Vec3::X } else { Vec3::Z };
     let view = rh::view::look_at_mat4(center + key * (2.0 * radius), center, up);
-    let projection = rh::proj::directx::orthographic(
-        -radius,
-        radius,
-        -radius,
-        radius,
-        0.5 * radius,
-        3.5 * radius,
-    );
+    let projection = rh::proj::directx::orthographic(-radius, radius, -radius, radius, 0.5 * radius, 3.5 * radius);
     projection * view
 }
 

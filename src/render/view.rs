@@ -46,25 +46,17 @@ impl View {
         let globals_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene globals"),
             layout: &pipelines.globals_layout,
-            entries: &[wgpu::BindGroupEntry {
-                binding: 0,
-                resource: globals.as_entire_binding(),
-            }],
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
         });
         let shadow_map = device
             .create_texture(&wgpu::TextureDescriptor {
                 label: Some("shadow map"),
-                size: wgpu::Extent3d {
-                    width: SHADOW_TEXELS,
-                    height: SHADOW_TEXELS,
-                    depth_or_array_layers: 1,
-                },
+                size: wgpu::Extent3d { width: SHADOW_TEXELS, height: SHADOW_TEXELS, depth_or_array_layers: 1 },
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,
                 format: SHADOW_DEPTH,
-                usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-                    | wgpu::TextureUsages::TEXTURE_BINDING,
+                usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
                 view_formats: &[],
             })
             .create_view(&wgpu::TextureViewDescriptor::default());
@@ -72,10 +64,7 @@ impl View {
             label: Some("shadow map"),
             layout: &pipelines.shadow_layout,
             entries: &[
-                wgpu::BindGroupEntry {
-                    binding: 0,
-                    resource: wgpu::BindingResource::TextureView(&shadow_map),
-                },
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&shadow_map) },
                 wgpu::BindGroupEntry {
                     binding: 1,
                     resource: wgpu::BindingResource::Sampler(&pipelines.shadow_sampler),
@@ -114,11 +103,8 @@ impl View {
     ) -> bool {
         let limit = device.limits().max_texture_dimension_2d;
         let (size, scale) = fitting(frame.size_px, limit);
-        let pixels_per_point = if frame.pixels_per_point > 0.0 {
-            (frame.pixels_per_point * scale).min(16.0)
-        } else {
-            1.0
-        };
+        let pixels_per_point =
+            if frame.pixels_per_point > 0.0 { (frame.pixels_per_point * scale).min(16.0) } else { 1.0 };
         let wanted = Drawn {
             version: frame.scene_version,
             camera: *frame.camera,
@@ -152,12 +138,7 @@ impl View {
         if self.target.as_ref().is_none_or(|t| t.size != size) {
             // The old one goes first: both at once may be more than there is.
             self.target = None;
-            self.target = Some(Target::new(
-                device,
-                &pipelines.blit_layout,
-                &pipelines.blit_sampler,
-                size,
-            ));
+            self.target = Some(Target::new(device, &pipelines.blit_layout, &pipelines.blit_sampler, size));
         }
         if let Some(target) = &self.target {
             self.draw_scene(encoder, pipelines, target, frame.scene.ground.is_some());
@@ -169,14 +150,10 @@ impl View {
         let batch = &mut self.batch;
         batch.fill(frame.scene);
         let mesh = &batch.mesh;
-        self.vertices
-            .write(device, queue, bytemuck::cast_slice(&mesh.vertices));
-        self.indices
-            .write(device, queue, bytemuck::cast_slice(&mesh.indices));
-        self.pieces
-            .write(device, queue, bytemuck::cast_slice(&batch.pieces));
-        self.signs
-            .write(device, queue, bytemuck::cast_slice(&batch.signs));
+        self.vertices.write(device, queue, bytemuck::cast_slice(&mesh.vertices));
+        self.indices.write(device, queue, bytemuck::cast_slice(&mesh.indices));
+        self.pieces.write(device, queue, bytemuck::cast_slice(&batch.pieces));
+        self.signs.write(device, queue, bytemuck::cast_slice(&batch.signs));
         self.uploaded = Some(frame.scene_version);
     }
 
@@ -185,10 +162,7 @@ impl View {
             label: Some("shadow map"),
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.shadow_map,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Store,
-                }),
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Store }),
                 stencil_ops: None,
             }),
             ..Default::default()
@@ -202,13 +176,7 @@ impl View {
         }
     }
 
-    fn draw_scene(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        pipelines: &Pipelines,
-        target: &Target,
-        ground: bool,
-    ) {
+    fn draw_scene(&self, encoder: &mut wgpu::CommandEncoder, pipelines: &Pipelines, target: &Target, ground: bool) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("scene"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -222,10 +190,7 @@ impl View {
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &target.depth,
-                depth_ops: Some(wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(1.0),
-                    store: wgpu::StoreOp::Discard,
-                }),
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
                 stencil_ops: None,
             }),
             ..Default::default()

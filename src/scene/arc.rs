@@ -25,11 +25,7 @@ pub fn circular(length: f32, bend: f32, delta: f32, s: f32) -> Pose {
 }
 
 fn sinc(x: f32) -> f32 {
-    if x.abs() < 1e-3 {
-        1.0 - x * x / 6.0
-    } else {
-        x.sin() / x
-    }
+    if x.abs() < 1e-3 { 1.0 - x * x / 6.0 } else { x.sin() / x }
 }
 
 /// Frames at `count + 1` equally spaced arc lengths from 0 to `length`, each put behind `start`.
@@ -37,9 +33,16 @@ fn sinc(x: f32) -> f32 {
 /// `shape` gives the frame at an arc length, as seen from `start`. At least one step is taken.
 pub fn frames(start: Pose, length: f32, count: usize, shape: impl Fn(f32) -> Pose) -> Vec<Pose> {
     let count = count.max(1);
-    (0..=count)
-        .map(|i| start.then(&shape(length * i as f32 / count as f32)))
-        .collect()
+    (0..=count).map(|i| start.then(&shape(length * i as f32 / count as f32))).collect()
+}
+
+/// The frames with one more at each end, `before` and `after` m straight on along z: so that a backbone shows on the
+/// far side of its end disks.
+pub fn extended(frames: &[Pose], before: f32, after: f32) -> Vec<Pose> {
+    let on = |f: &Pose, by: f32| Pose::new(f.point(Vec3::Z * by), f.rotation);
+    let first = frames.first().map(|f| on(f, -before));
+    let last = frames.last().map(|f| on(f, after));
+    first.into_iter().chain(frames.iter().copied()).chain(last).collect()
 }
 
 /// The line that a fixed point of the moving frame's x–y plane draws.
@@ -92,10 +95,7 @@ mod tests {
     fn no_jump_at_straight_and_unit_speed() {
         for bend in [0.0, 1e-6, 1.9e-3, 2.1e-3, 0.5, -1.3, PI] {
             let path: Vec<_> = frames(Pose::IDENTITY, L, 400, |s| circular(L, bend, 0.4, s));
-            let length: f32 = path
-                .windows(2)
-                .map(|w| (w[1].position - w[0].position).length())
-                .sum();
+            let length: f32 = path.windows(2).map(|w| (w[1].position - w[0].position).length()).sum();
             assert!((length - L).abs() < 1e-6, "{bend}: {length}");
         }
     }
@@ -111,6 +111,17 @@ mod tests {
             let q = -r * (delta + TAU * i as f32 / 3.0).cos() * bend;
             assert!((length - (L + q)).abs() < 2e-5, "{i}: {length} {q}");
         }
+    }
+
+    #[test]
+    fn extending_goes_straight_on() {
+        let path = frames(Pose::IDENTITY, L, 4, |s| circular(L, FRAC_PI_2, 0.0, s));
+        let longer = extended(&path, 0.001, 0.002);
+        assert_eq!(longer.len(), path.len() + 2);
+        assert!((longer[0].position - Vec3::Z * -0.001).length() < 1e-9);
+        let on = longer[6].position - longer[5].position;
+        assert!((on - Vec3::X * 0.002).length() < 1e-8);
+        assert!(extended(&[], 1.0, 1.0).is_empty());
     }
 
     #[test]

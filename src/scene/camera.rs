@@ -39,6 +39,8 @@ pub struct Ray {
     pub direction: Vec3,
 }
 
+/// Distance at which a segment of 30 mm and its floor fill the view, in m.
+const HOME: f32 = 0.092;
 /// Pitch stops short of the pole, where yaw would have no meaning.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.02;
 /// Just under the floor: enough to see a disk from below.
@@ -51,7 +53,7 @@ const PAN: f32 = 1.5;
 impl Default for Camera {
     /// For a segment of 30 mm that bends toward +x.
     fn default() -> Self {
-        Self::looking_at(Vec3::new(0.0065, 0.0, 0.0135), 0.105, -1.92, 0.33)
+        Self::looking_at(Vec3::new(0.0075, 0.0, 0.0125), HOME, -1.22, 0.30)
     }
 }
 
@@ -62,30 +64,14 @@ impl Camera {
             target,
             yaw,
             pitch: pitch.clamp(MIN_PITCH, MAX_PITCH),
-            distance: if distance.is_finite() {
-                distance.clamp(1e-4, 1e4)
-            } else {
-                1.0
-            },
+            distance: if distance.is_finite() { distance.clamp(1e-4, 1e4) } else { 1.0 },
         };
-        Self {
-            target,
-            yaw,
-            pitch: home.pitch,
-            distance: home.distance,
-            fov: 0.52,
-            home,
-        }
+        Self { target, yaw, pitch: home.pitch, distance: home.distance, fov: 0.52, home }
     }
 
     /// Back to the home view.
     pub fn reset(&mut self) {
-        let Home {
-            target,
-            yaw,
-            pitch,
-            distance,
-        } = self.home;
+        let Home { target, yaw, pitch, distance } = self.home;
         (self.target, self.yaw, self.pitch, self.distance) = (target, yaw, pitch, distance);
     }
 
@@ -115,10 +101,7 @@ impl Camera {
     /// Comes nearer by `factor` (above 1) or goes back (below 1).
     pub fn zoom(&mut self, factor: f32) {
         if factor.is_finite() && factor > 0.0 {
-            self.distance = (self.distance / factor).clamp(
-                ZOOM.0 * self.home.distance,
-                ZOOM.1 * self.home.distance,
-            );
+            self.distance = (self.distance / factor).clamp(ZOOM.0 * self.home.distance, ZOOM.1 * self.home.distance);
         }
     }
 
@@ -174,12 +157,7 @@ impl Camera {
     pub fn view_projection(&self, size: Vec2) -> Mat4 {
         let distance = self.distance * Self::portrait(size);
         let far = 12.0 * self.home.distance + distance;
-        let projection = rh::proj::directx::perspective(
-            self.fov.clamp(0.05, 2.5),
-            aspect(size),
-            0.04 * distance,
-            far,
-        );
+        let projection = rh::proj::directx::perspective(self.fov.clamp(0.05, 2.5), aspect(size), 0.04 * distance, far);
         projection * self.view(size)
     }
 
@@ -190,11 +168,7 @@ impl Camera {
             return None;
         }
         let ndc = clip.truncate() / clip.w;
-        Some(Vec3::new(
-            (0.5 + 0.5 * ndc.x) * size.x,
-            (0.5 - 0.5 * ndc.y) * size.y,
-            ndc.z,
-        ))
+        Some(Vec3::new((0.5 + 0.5 * ndc.x) * size.x, (0.5 - 0.5 * ndc.y) * size.y, ndc.z))
     }
 
     /// The ray from the eye through a pixel.
@@ -205,20 +179,14 @@ impl Camera {
         let (right, up) = self.axes();
         Ray {
             origin: self.eye(size),
-            direction: (right * (ndc.x * tan * aspect(size)) + up * (ndc.y * tan)
-                - self.backward())
-            .normalize(),
+            direction: (right * (ndc.x * tan * aspect(size)) + up * (ndc.y * tan) - self.backward()).normalize(),
         }
     }
 }
 
 fn aspect(size: Vec2) -> f32 {
     let ratio = size.x / size.y;
-    if ratio.is_finite() {
-        ratio.clamp(0.01, 100.0)
-    } else {
-        1.0
-    }
+    if ratio.is_finite() { ratio.clamp(0.01, 100.0) } else { 1.0 }
 }
 
 fn wrap(angle: f32) -> f32 {
@@ -279,9 +247,9 @@ mod tests {
         camera.orbit(Vec2::new(0.0, -1e6));
         assert!(camera.pitch >= MIN_PITCH);
         camera.zoom(1e9);
-        assert!(camera.distance >= 0.1 * 0.105);
+        assert!(camera.distance >= 0.1 * HOME);
         camera.zoom(1e-9);
-        assert!(camera.distance <= 7.0 * 0.105);
+        assert!(camera.distance <= 7.0 * HOME);
         camera.zoom(f32::NAN);
         camera.orbit(Vec2::NAN);
         camera.pan(Vec2::new(1e9, 1e9), SIZE);

@@ -48,12 +48,7 @@ impl Color {
     #[must_use]
     pub fn mix(self, other: Self, t: f32) -> Self {
         let lerp = |a: f32, b: f32| a + (b - a) * t;
-        Self::rgba(
-            lerp(self.r, other.r),
-            lerp(self.g, other.g),
-            lerp(self.b, other.b),
-            lerp(self.a, other.a),
-        )
+        Self::rgba(lerp(self.r, other.r), lerp(self.g, other.g), lerp(self.b, other.b), lerp(self.a, other.a))
     }
 
     /// The components in order red, green, blue, alpha.
@@ -63,18 +58,13 @@ impl Color {
 
     /// The components as bytes; what is out of range (or NaN) is clamped.
     pub fn to_bytes(self) -> [u8; 4] {
-        self.to_array()
-            .map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
+        self.to_array().map(|v| (v.clamp(0.0, 1.0) * 255.0 + 0.5) as u8)
     }
 
     /// The components decoded to linear light; alpha unchanged.
     pub fn to_linear(self) -> [f32; 4] {
         let decode = |v: f32| {
-            if v <= 0.04045 {
-                v / 12.92
-            } else {
-                ((v + 0.055) / 1.055).powf(2.4)
-            }
+            if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
         };
         [decode(self.r), decode(self.g), decode(self.b), self.a]
     }

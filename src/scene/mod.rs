@@ -27,11 +27,11 @@ pub mod demo;
 pub mod palette;
 mod primitives;
 mod studio;
+pub mod view;
 
 pub use camera::{Camera, Ray};
 pub use color::Color;
 pub use primitives::{
-    Block, Cap, Dash, Disk, Finish, Ground, Hole, Label, Line, Mark, Marker, Pose, Scene, Shape,
-    Solid, Tube,
+    Block, Cap, Dash, Disk, Finish, Ground, Hole, Label, Line, Mark, Marker, Pose, Scene, Shape, Solid, Tube,
 };
 pub use studio::Studio;

@@ -50,17 +50,17 @@ impl Palette {
         constrained: Color::hex(0xE69F00),
         sensor: Color::hex(0x009E73),
         detection: Color::hex(0xD55E00),
-        steel: Color::hex(0xC9D0D8),
-        steel_primary: Color::hex(0xE4E8EC),
+        steel: Color::hex(0xD5DBE2),
+        steel_primary: Color::hex(0xF0F2F5),
         disk: Color::hex(0xAEBBC8),
         mark: Color::hex(0x39424E),
-        stone: Color::hex(0x5D5850),
+        stone: Color::hex(0x69635A),
         ink: Color::hex(0x1D232B),
         ink_dim: Color::hex(0x66707C),
         halo: Color::hex(0xFFFFFF),
         grid: Color::rgba(0.16, 0.22, 0.30, 0.26),
         glow: Color::rgba(1.0, 1.0, 1.0, 0.0),
-        ground_shadow: 0.30,
+        ground_shadow: 0.24,
     };
 
     /// For a dark background.
@@ -78,7 +78,7 @@ impl Palette {
         ink: Color::hex(0xE6EBF0),
         ink_dim: Color::hex(0x93A0AE),
         halo: Color::hex(0x14181D),
-        grid: Color::rgba(0.75, 0.84, 0.95, 0.17),
+        grid: Color::rgba(0.75, 0.84, 0.95, 0.22),
         glow: Color::rgba(0.62, 0.72, 0.85, 0.10),
         ground_shadow: 0.55,
     };

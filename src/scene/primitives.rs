@@ -15,10 +15,7 @@ pub struct Pose {
 
 impl Pose {
     /// The scene's own frame.
-    pub const IDENTITY: Self = Self {
-        position: Vec3::ZERO,
-        rotation: Quat::IDENTITY,
-    };
+    pub const IDENTITY: Self = Self { position: Vec3::ZERO, rotation: Quat::IDENTITY };
 
     /// A pose from its parts.
     pub const fn new(position: Vec3, rotation: Quat) -> Self {
@@ -33,10 +30,7 @@ impl Pose {
     /// This pose followed by `inner`, which is given in this body's frame.
     #[must_use]
     pub fn then(&self, inner: &Self) -> Self {
-        Self::new(
-            self.point(inner.position),
-            (self.rotation * inner.rotation).normalize(),
-        )
+        Self::new(self.point(inner.position), (self.rotation * inner.rotation).normalize())
     }
 }
 
@@ -179,14 +173,7 @@ pub struct Line {
 impl Line {
     /// A solid line that is hidden behind opaque things.
     pub fn new(path: Vec<Vec3>, width: f32, color: Color) -> Self {
-        Self {
-            path,
-            width,
-            color,
-            dash: None,
-            through: 0.0,
-            lift: 0.0,
-        }
+        Self { path, width, color, dash: None, through: 0.0, lift: 0.0 }
     }
 
     /// Dashed: `period` in m, `filled` the drawn part of it.
@@ -282,6 +269,13 @@ impl Marker {
     #[must_use]
     pub const fn pulsing(mut self, pulse: f32) -> Self {
         self.pulse = pulse;
+        self
+    }
+
+    /// Seen through opaque things with this opacity factor.
+    #[must_use]
+    pub const fn through(mut self, opacity: f32) -> Self {
+        self.through = opacity;
         self
     }
 

@@ -32,11 +32,11 @@ impl Studio {
     pub const LIGHT: Self = Self {
         inner: Color::hex(0xFFFFFF),
         outer: Color::hex(0xEDF0F3),
-        key_from: Vec3::new(-0.55, -0.75, 1.35),
+        key_from: Vec3::new(0.62, -0.50, 1.45),
         key: 0.78,
         fill: 0.20,
         sky: Color::hex(0xA9B2BD),
-        floor: Color::hex(0x8D8A86),
+        floor: Color::hex(0x9A9895),
         rim: 0.10,
         shadow: 0.55,
     };
@@ -45,11 +45,11 @@ impl Studio {
     pub const DARK: Self = Self {
         inner: Color::hex(0x20262E),
         outer: Color::hex(0x11151A),
-        key_from: Vec3::new(-0.55, -0.75, 1.35),
+        key_from: Vec3::new(0.62, -0.50, 1.45),
         key: 0.85,
         fill: 0.16,
-        sky: Color::hex(0x77818E),
-        floor: Color::hex(0x4A4C52),
+        sky: Color::hex(0x808A97),
+        floor: Color::hex(0x595C63),
         rim: 0.30,
         shadow: 0.65,
     };

@@ -13,19 +13,18 @@ impl Gpu {
     /// Panics when there is no adapter: the test command installs one.
     pub fn new() -> Self {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-            backends: wgpu::Backends::VULKAN | wgpu::Backends::GL,
+            // WGPU_BACKEND=gl runs the code path that WebGL2 takes.
+            backends: wgpu::Backends::from_env().unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::GL),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });
-        let adapter =
-            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-                .expect("a Vulkan or OpenGL adapter (mesa-vulkan-drivers)");
-        let (device, queue) =
-            pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
-                label: Some("test"),
-                required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
-                ..Default::default()
-            }))
-            .expect("a device with WebGL2's limits");
+        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+            .expect("a Vulkan or OpenGL adapter (mesa-vulkan-drivers)");
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("test"),
+            required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
+            ..Default::default()
+        }))
+        .expect("a device with WebGL2's limits");
         Self { device, queue }
     }
 }
@@ -56,11 +55,7 @@ pub fn render(
     let [width, height] = size;
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("screen"),
-        size: wgpu::Extent3d {
-            width,
-            height,
-            depth_or_array_layers: 1,
-        },
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -81,15 +76,7 @@ pub fn render(
         device,
         queue,
         &mut encoder,
-        &Frame {
-            view,
-            size_px: size,
-            pixels_per_point,
-            scene: scene.0,
-            scene_version: scene.1,
-            camera,
-            studio,
-        },
+        &Frame { view, size_px: size, pixels_per_point, scene: scene.0, scene_version: scene.1, camera, studio },
     );
     {
         let target = texture.create_view(&wgpu::TextureViewDescriptor::default());
@@ -98,10 +85,7 @@ pub fn render(
                 view: &target,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(below),
-                    store: wgpu::StoreOp::Store,
-                },
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(below), store: wgpu::StoreOp::Store },
             })],
             ..Default::default()
         });
@@ -111,19 +95,13 @@ pub fn render(
         texture.as_image_copy(),
         wgpu::TexelCopyBufferInfo {
             buffer: &readback,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(row),
-                rows_per_image: None,
-            },
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(row), rows_per_image: None },
         },
         texture.size(),
     );
     queue.submit([encoder.finish()]);
     readback.slice(..).map_async(wgpu::MapMode::Read, |r| r.expect("mapped"));
-    device
-        .poll(wgpu::PollType::wait_indefinitely())
-        .expect("the GPU finishes");
+    device.poll(wgpu::PollType::wait_indefinitely()).expect("the GPU finishes");
     let bytes = readback.slice(..).get_mapped_range().expect("mapped");
     let pixels = bytes
         .chunks_exact(row as usize)

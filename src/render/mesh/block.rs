@@ -17,10 +17,7 @@ pub(in crate::render) fn block(mesh: &mut Mesh, block: &Block) {
     let bevel = if block.bevel > 0.0 { block.bevel } else { 0.0 };
     match block.solid {
         Solid::Box { half } => rounded_box(&mut sink, half.abs(), bevel),
-        Solid::Cylinder {
-            radius,
-            half_length,
-        } => cylinder(&mut sink, radius.abs(), half_length.abs(), bevel),
+        Solid::Cylinder { radius, half_length } => cylinder(&mut sink, radius.abs(), half_length.abs(), bevel),
     }
 }
 
@@ -94,16 +91,7 @@ mod tests {
     fn made(solid: Solid, bevel: f32) -> Mesh {
         let mut mesh = Mesh::default();
         let pose = Pose::new(Vec3::new(0.1, 0.2, 0.3), Quat::from_rotation_y(0.7));
-        block(
-            &mut mesh,
-            &Block {
-                pose,
-                solid,
-                bevel,
-                color: Color::WHITE,
-                finish: Finish::Matte,
-            },
-        );
+        block(&mut mesh, &Block { pose, solid, bevel, color: Color::WHITE, finish: Finish::Matte });
         mesh
     }
 
@@ -112,10 +100,7 @@ mod tests {
         let half = Vec3::new(0.3, 0.5, 0.2);
         for bevel in [0.0, 0.05, 9.0] {
             check::closed_and_outward(&made(Solid::Box { half }, bevel), 1e-5);
-            let cylinder = Solid::Cylinder {
-                radius: 0.3,
-                half_length: 0.4,
-            };
+            let cylinder = Solid::Cylinder { radius: 0.3, half_length: 0.4 };
             check::closed_and_outward(&made(cylinder, bevel), 1e-5);
         }
     }
@@ -125,10 +110,7 @@ mod tests {
         for half in [Vec3::ZERO, Vec3::NAN, Vec3::splat(f32::INFINITY)] {
             assert!(made(Solid::Box { half }, 0.1).indices.is_empty());
         }
-        let cylinder = Solid::Cylinder {
-            radius: f32::NAN,
-            half_length: 1.0,
-        };
+        let cylinder = Solid::Cylinder { radius: f32::NAN, half_length: 1.0 };
         assert!(made(cylinder, f32::NAN).indices.is_empty());
     }
 }

@@ -30,10 +30,7 @@ impl Plates {
     }
 
     fn get(&mut self, radius: f32, holes: &[Hole]) -> &Plate {
-        let known = self
-            .0
-            .iter()
-            .position(|p| p.radius == radius && p.asked == holes);
+        let known = self.0.iter().position(|p| p.radius == radius && p.asked == holes);
         let index = known.unwrap_or_else(|| {
             self.0.push(Plate::new(radius, holes));
             self.0.len() - 1
@@ -48,15 +45,10 @@ impl Plate {
     fn new(radius: f32, asked: &[Hole]) -> Self {
         let holes = apart(radius, asked);
         let ring = |center: Vec2, radius: f32, count: u32, turn: f32| -> Vec<Vec2> {
-            (0..count)
-                .map(|i| center + Vec2::from_angle(turn * angle(i, count)) * radius)
-                .collect()
+            (0..count).map(|i| center + Vec2::from_angle(turn * angle(i, count)) * radius).collect()
         };
         let outer = ring(Vec2::ZERO, radius, SIDES, 1.0);
-        let inner: Vec<_> = holes
-            .iter()
-            .map(|h| ring(h.center, h.radius, HOLE_SIDES, -1.0))
-            .collect();
+        let inner: Vec<_> = holes.iter().map(|h| ring(h.center, h.radius, HOLE_SIDES, -1.0)).collect();
         Self {
             radius,
             asked: asked.to_vec(),
@@ -73,9 +65,7 @@ fn apart(radius: f32, asked: &[Hole]) -> Vec<Hole> {
     let mut kept: Vec<Hole> = Vec::new();
     for &hole in asked {
         let sound = hole.radius > 0.0 && hole.center.length() + hole.radius < 0.98 * radius;
-        let free = kept
-            .iter()
-            .all(|k| k.center.distance(hole.center) > 1.02 * (k.radius + hole.radius));
+        let free = kept.iter().all(|k| k.center.distance(hole.center) > 1.02 * (k.radius + hole.radius));
         if sound && free {
             kept.push(hole);
         }
@@ -92,19 +82,9 @@ pub(in crate::render) fn disk(mesh: &mut Mesh, plates: &mut Plates, disk: &Disk)
     let bevel = (0.22 * disk.thickness).min(0.1 * disk.radius);
     let face = disk.radius - bevel;
     let mut sink = Sink::new(mesh, disk.pose, Paint::new(disk.color, disk.finish));
-    sink.lathe(&rounded_rim(disk.radius, half, bevel), SIDES);
-
     let plate = plates.get(face, &disk.holes);
-    for up in [1.0, -1.0] {
-        let start = sink.next();
-        for corner in &plate.corners {
-            sink.vertex(corner.extend(up * half), Vec3::Z * up);
-        }
-        for &[a, b, c] in &plate.triangles {
-            let [a, b, c] = if up > 0.0 { [a, b, c] } else { [a, c, b] };
-            sink.triangle([start + a, start + b, start + c]);
-        }
-    }
+
+    // The walls of the holes first: in a translucent disk the faces then lie over them.
     for hole in &plate.holes {
         let mut last = None;
         for z in [-half, half] {
@@ -118,6 +98,17 @@ pub(in crate::render) fn disk(mesh: &mut Mesh, plates: &mut Plates, disk: &Disk)
                 sink.band(last, row, HOLE_SIDES);
             }
             last = Some(row);
+        }
+    }
+    sink.lathe(&rounded_rim(disk.radius, half, bevel), SIDES);
+    for up in [1.0, -1.0] {
+        let start = sink.next();
+        for corner in &plate.corners {
+            sink.vertex(corner.extend(up * half), Vec3::Z * up);
+        }
+        for &[a, b, c] in &plate.triangles {
+            let [a, b, c] = if up > 0.0 { [a, b, c] } else { [a, c, b] };
+            sink.triangle([start + a, start + b, start + c]);
         }
     }
 }
@@ -139,15 +130,8 @@ pub(in crate::render) fn mark(disk: &Disk) -> Option<Block> {
         .fold(0.62 * radius, f32::max)
         .min(0.93 * radius);
     let end = 1.025 * radius;
-    let half = Vec3::new(
-        0.5 * (end - clear),
-        half_width,
-        0.5 * disk.thickness + 0.012 * radius,
-    );
-    let turned = Pose::new(
-        (toward * (0.5 * (clear + end))).extend(0.0),
-        Quat::from_rotation_z(mark.angle),
-    );
+    let half = Vec3::new(0.5 * (end - clear), half_width, 0.5 * disk.thickness + 0.012 * radius);
+    let turned = Pose::new((toward * (0.5 * (clear + end))).extend(0.0), Quat::from_rotation_z(mark.angle));
     Some(Block {
         pose: disk.pose.then(&turned),
         solid: Solid::Box { half },
@@ -184,10 +168,7 @@ mod tests {
             radius: 0.0042,
             thickness: 0.0008,
             holes,
-            mark: Some(Mark {
-                angle: 0.3,
-                color: Color::BLACK,
-            }),
+            mark: Some(Mark { angle: 0.3, color: Color::BLACK }),
             color: Color::WHITE,
             finish: Finish::Satin,
         }
@@ -196,10 +177,7 @@ mod tests {
     fn four() -> Vec<Hole> {
         std::iter::once(Vec2::ZERO)
             .chain((0..3).map(|i| arc::pitch_point(0.003, i, 3)))
-            .map(|center| Hole {
-                center,
-                radius: 0.0006,
-            })
+            .map(|center| Hole { center, radius: 0.0006 })
             .collect()
     }
 
@@ -217,14 +195,8 @@ mod tests {
         let mut holes = four();
         holes.extend([
             holes[1],
-            Hole {
-                center: Vec2::X * 0.004,
-                radius: 0.0006,
-            },
-            Hole {
-                center: Vec2::NAN,
-                radius: 0.1,
-            },
+            Hole { center: Vec2::X * 0.004, radius: 0.0006 },
+            Hole { center: Vec2::NAN, radius: 0.1 },
         ]);
         assert_eq!(apart(0.0042, &holes), four());
     }
@@ -246,14 +218,9 @@ mod tests {
     fn the_mark_keeps_clear_of_the_holes() {
         let mut disk = plate(four());
         disk.pose = Pose::IDENTITY;
-        disk.mark = Some(Mark {
-            angle: 0.0,
-            color: Color::BLACK,
-        });
+        disk.mark = Some(Mark { angle: 0.0, color: Color::BLACK });
         let block = mark(&disk).unwrap();
-        let Solid::Box { half } = block.solid else {
-            panic!("a box")
-        };
+        let Solid::Box { half } = block.solid else { panic!("a box") };
         assert!(block.pose.position.x - half.x > 0.0036);
         assert!(block.pose.position.x + half.x > disk.radius);
     }

@@ -65,10 +65,7 @@ impl Paint {
             Finish::Metal => [255, 60, 0, 0],
             Finish::Ghost => [0, 255, 255, 0],
         };
-        Self {
-            color: color.to_bytes(),
-            material,
-        }
+        Self { color: color.to_bytes(), material }
     }
 }
 
@@ -121,10 +118,7 @@ impl<'a> Sink<'a> {
             let row = self.next();
             for i in 0..=sides {
                 let (sin, cos) = angle(i, sides).sin_cos();
-                self.vertex(
-                    Vec3::new(radius * cos, radius * sin, z),
-                    Vec3::new(out * cos, out * sin, up),
-                );
+                self.vertex(Vec3::new(radius * cos, radius * sin, z), Vec3::new(out * cos, out * sin, up));
             }
             if let Some(last) = last {
                 self.band(last, row, sides);
@@ -149,9 +143,7 @@ fn rounded_rim(radius: f32, half: f32, bevel: f32) -> Vec<[f32; 4]> {
             [radius - bevel + bevel * cos, z + bevel * sin, cos, sin]
         })
     };
-    corner(-half + bevel, -std::f32::consts::FRAC_PI_2)
-        .chain(corner(half - bevel, 0.0))
-        .collect()
+    corner(-half + bevel, -std::f32::consts::FRAC_PI_2).chain(corner(half - bevel, 0.0)).collect()
 }
 
 #[cfg(test)]
@@ -162,20 +154,13 @@ pub(super) mod check {
     /// way the triangles face.
     pub fn closed_and_outward(mesh: &Mesh, grain: f32) {
         use std::collections::HashMap;
-        let key = |i: u32| {
-            mesh.vertices[i as usize]
-                .position
-                .map(|v| (v / grain).round() as i64)
-        };
+        let key = |i: u32| mesh.vertices[i as usize].position.map(|v| (v / grain).round() as i64);
         let mut edges: HashMap<_, i32> = HashMap::new();
         let mut backward = 0;
         for t in mesh.indices.chunks_exact(3) {
             let [a, b, c] = [t[0], t[1], t[2]].map(|i| Vec3::from(mesh.vertices[i as usize].position));
             let face = (b - a).cross(c - a);
-            let normal: Vec3 = t
-                .iter()
-                .map(|&i| Vec3::from(mesh.vertices[i as usize].normal))
-                .sum();
+            let normal: Vec3 = t.iter().map(|&i| Vec3::from(mesh.vertices[i as usize].normal)).sum();
             if face.length() > 1e-13 && face.dot(normal) <= 0.0 {
                 backward += 1;
             }

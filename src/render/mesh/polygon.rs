@@ -14,9 +14,7 @@ pub(super) fn triangulate(outer: &[Vec2], holes: &[Vec<Vec2>]) -> Vec<[u32; 3]> 
         points.extend(hole);
     }
     let rightmost = |&(start, len): &(u32, u32)| {
-        (start..start + len)
-            .max_by(|&a, &b| points[a as usize].x.total_cmp(&points[b as usize].x))
-            .unwrap_or(start)
+        (start..start + len).max_by(|&a, &b| points[a as usize].x.total_cmp(&points[b as usize].x)).unwrap_or(start)
     };
     // From right to left, so that each bridge goes to the outline or to a hole already joined.
     let mut order: Vec<(u32, u32, u32)> = starts.iter().map(|s| (s.0, s.1, rightmost(s))).collect();
@@ -109,15 +107,11 @@ mod tests {
     use std::f32::consts::TAU;
 
     fn circle(center: Vec2, radius: f32, count: usize, turn: f32) -> Vec<Vec2> {
-        (0..count)
-            .map(|i| center + Vec2::from_angle(turn * TAU * i as f32 / count as f32) * radius)
-            .collect()
+        (0..count).map(|i| center + Vec2::from_angle(turn * TAU * i as f32 / count as f32) * radius).collect()
     }
 
     fn area(ring: &[Vec2]) -> f32 {
-        (0..ring.len())
-            .map(|i| 0.5 * ring[i].perp_dot(ring[(i + 1) % ring.len()]))
-            .sum()
+        (0..ring.len()).map(|i| 0.5 * ring[i].perp_dot(ring[(i + 1) % ring.len()])).sum()
     }
 
     #[test]

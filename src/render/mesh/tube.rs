@@ -72,10 +72,7 @@ fn ring(sink: &mut Sink<'_>, center: Vec3, rotation: Quat, radius: f32, lean: f3
     for i in 0..=SIDES {
         let (sin, cos) = angle(i, SIDES).sin_cos();
         let outward = Vec3::new(cos, sin, 0.0);
-        sink.vertex(
-            center + rotation * (outward * radius),
-            rotation * (outward * out + Vec3::Z * up),
-        );
+        sink.vertex(center + rotation * (outward * radius), rotation * (outward * out + Vec3::Z * up));
     }
 }
 
@@ -86,13 +83,7 @@ fn end(sink: &mut Sink<'_>, center: Vec3, rotation: Quat, tube: &Tube) {
         Cap::Flat => {
             let middle = sink.vertex(center, axis);
             let row = sink.next();
-            ring(
-                sink,
-                center,
-                rotation,
-                tube.radius,
-                std::f32::consts::FRAC_PI_2,
-            );
+            ring(sink, center, rotation, tube.radius, std::f32::consts::FRAC_PI_2);
             for i in 0..SIDES {
                 sink.triangle([row + i, row + i + 1, middle]);
             }
@@ -120,9 +111,7 @@ mod tests {
     use crate::scene::{Color, Finish, arc};
 
     fn bent(cap: Cap) -> Tube {
-        let frames = arc::frames(Pose::IDENTITY, 0.03, 20, |s| {
-            arc::circular(0.03, 1.5, 0.3, s)
-        });
+        let frames = arc::frames(Pose::IDENTITY, 0.03, 20, |s| arc::circular(0.03, 1.5, 0.3, s));
         Tube {
             path: arc::offset(&frames, arc::pitch_point(0.003, 1, 3)),
             radius: 0.0004,

@@ -4,7 +4,7 @@ struct Globals {
     light_from_scene: mat4x4<f32>,
     // Eye in the scene; w unused.
     eye: vec4<f32>,
-    // Width and height in pixels, pixels per point, time-free noise switch.
+    // Width and height in pixels, pixels per point, how far shadows are looked up off a surface.
     viewport: vec4<f32>,
     // Unit direction toward the light, strength.
     key: vec4<f32>,

@@ -30,10 +30,10 @@ fn lit(position: vec3<f32>, softness: f32, taps: i32, pixel: vec2<f32>) -> f32 {
 
 // What polished metal sees in this direction: floor, ceiling and two soft boxes.
 fn room(direction: vec3<f32>) -> vec3<f32> {
-    let ceiling = smoothstep(-0.45, 0.75, direction.z);
-    let ambient = mix(g.floor.rgb * 0.35, g.sky.rgb * 1.25, ceiling);
-    let key = smoothstep(0.35, 0.92, dot(direction, g.key.xyz)) * g.key.w * 1.5;
-    let fill = smoothstep(0.45, 0.95, dot(direction, g.fill.xyz)) * g.fill.w * 1.6;
+    let ceiling = smoothstep(-0.55, 0.45, direction.z);
+    let ambient = mix(g.floor.rgb * 0.75, g.sky.rgb * 1.7, ceiling);
+    let key = smoothstep(0.10, 0.85, dot(direction, g.key.xyz)) * g.key.w * 1.2;
+    let fill = smoothstep(0.30, 0.95, dot(direction, g.fill.xyz)) * g.fill.w * 2.4;
     return ambient + vec3<f32>(key + fill);
 }
 
@@ -55,10 +55,11 @@ fn shade(albedo: vec3<f32>, metal: f32, rough: f32, normal: vec3<f32>, view: vec
     let rim = g.rim.w * grazing * (0.5 + 0.5 * normal.z);
 
     let mirrored = room(reflect(-view, normal));
-    let tint = mix(albedo, vec3<f32>(1.0), grazing * 0.7);
-    let polished = mirrored * tint * mix(0.72, 1.0, reach) + vec3<f32>(spark * g.key.w * 0.8);
+    // On a light background bright edges would be lost.
+    let tint = mix(albedo, vec3<f32>(1.0), grazing * min(1.0, 2.5 * g.rim.w));
+    let polished = mirrored * tint * mix(0.8, 1.0, reach) + vec3<f32>(spark * g.key.w * 0.8);
     let dull = diffuse + vec3<f32>(spark * g.key.w * 0.22) + mirrored * grazing * (1.0 - rough) * 0.22;
-    let color = mix(dull, mix(diffuse, polished, 0.82), metal) + vec3<f32>(rim);
+    let color = mix(dull, mix(diffuse, polished, 0.78), metal) + vec3<f32>(rim);
     // A soft shoulder instead of a hard white.
     let over = max(color - 0.75, vec3<f32>(0.0));
     return min(color, vec3<f32>(0.75)) + over / (1.0 + 2.2 * over);

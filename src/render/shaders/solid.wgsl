@@ -15,10 +15,13 @@ struct Surface {
     @location(3) material: vec4<f32>,
 }
 
+// How far, in m, a ghost yields to a body in the same place: where both shapes agree only the body is seen.
+const YIELD: f32 = 0.0008;
+
 @vertex
 fn vs_solid(in: Vertex) -> Surface {
     return Surface(
-        g.clip_from_scene * vec4<f32>(in.position, 1.0),
+        lifted(in.position, -YIELD * in.material.z),
         in.position,
         in.normal,
         in.color,
@@ -33,10 +36,10 @@ fn fs_solid(in: Surface) -> @location(0) vec4<f32> {
     let facing = clamp(dot(normal, view), 0.0, 1.0);
     let edge = (1.0 - facing) * (1.0 - facing);
     if in.material.z > 0.5 {
-        let alpha = in.color.a * mix(0.35, 1.0, edge);
+        let alpha = in.color.a * mix(0.45, 1.0, edge);
         return vec4<f32>(in.color.rgb * alpha, alpha);
     }
-    let raised = in.position + normal * g.shadow.x * 1.5;
+    let raised = in.position + normal * g.viewport.w;
     let reach = lit(raised, g.shadow.w, 6, in.clip.xy);
     let linear = shade(decode(in.color.rgb), in.material.x, in.material.y, normal, view, reach);
     // A plate seen from the side is thicker to the eye.

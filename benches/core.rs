@@ -1,0 +1,42 @@
+//! How long the core takes: `cargo bench`. Compare ratios within one run; absolute times differ between machines.
+
+use centrode::experiment::preset::find;
+use centrode::experiment::{Plan, Scenario, Simulation, simulate};
+use centrode::model::{Configuration, Constrained, Rate, locate};
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+
+fn model(c: &mut Criterion) {
+    let segment = Scenario::default().robot.segment();
+    let rate = Rate { theta_l: -1.0, delta: 0.0 };
+    let configuration = Configuration::from_theta_l(black_box(0.6), black_box(0.8));
+    c.bench_function("model/configuration", |b| {
+        b.iter(|| Configuration::from_theta_l(black_box(0.6), black_box(0.8)));
+    });
+    c.bench_function("model/pose, jacobian and centrode of the tip", |b| {
+        b.iter(|| {
+            let (pose, jacobian) = segment.arc(black_box(configuration)).pose_and_jacobian(segment.length);
+            jacobian.centrode(&pose.position, rate)
+        });
+    });
+    c.bench_function("model/energy gradient", |b| b.iter(|| segment.energy_gradient(black_box(&configuration))));
+    let held = Constrained::new(0.03, 0.015, 0.9, configuration);
+    let centrode = held.centrode(rate).expect("it moves");
+    c.bench_function("model/locate", |b| b.iter(|| locate(0.03, configuration, rate, black_box(&centrode))));
+}
+
+fn experiment(c: &mut Criterion) {
+    let mut group = c.benchmark_group("simulate");
+    for name in ["paper", "bench"] {
+        let scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
+        group.bench_function(name, |b| b.iter(|| simulate(black_box(&scenario))));
+    }
+    let plan = Plan::new(&Scenario::default()).expect("valid");
+    group.bench_function("paper, streamed without keeping samples", |b| {
+        b.iter(|| Simulation::new(black_box(&plan)).map(|sample| sample.judgement.deviation).fold(0.0, f64::max));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, model, experiment);
+criterion_main!(benches);

@@ -1,0 +1,343 @@
+//! What the bending plane shows, as numbers: everything projected into the plane, in mm.
+
+use crate::experiment::plant::{Plant, Shape};
+use crate::experiment::{Run, Sample};
+use crate::model::{Arc, Configuration, Constrained, Pose, Rate, Vec3};
+
+/// Millimetres per metre.
+const MM: f64 = 1e3;
+/// Marks of a locus over the whole motion.
+const MARKS: usize = 30;
+/// Points of a drawn backbone.
+const POINTS: usize = 40;
+/// A spacer disk's radius over the pitch radius.
+const DISK: f64 = 1.18;
+/// The beam's radius over the pitch radius.
+const BEAM: f64 = 0.55;
+/// The centrode's direction of motion: bending alone.
+const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
+
+/// A point of the plane: along `(cos δ, −sin δ, 0)` and along z, mm.
+pub type Flat = [f64; 2];
+
+/// The plane through z in which the segment bends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    sin: f64,
+    cos: f64,
+}
+
+impl Projection {
+    /// The bending plane of a configuration.
+    #[must_use]
+    pub fn of(configuration: Configuration) -> Self {
+        let (sin, cos) = configuration.sin_cos_delta();
+        Self { sin, cos }
+    }
+
+    /// A point of {B} (m), projected (mm).
+    #[must_use]
+    pub fn point(&self, p: &Vec3) -> Flat {
+        [(p.x * self.cos - p.y * self.sin) * MM, p.z * MM]
+    }
+
+    /// The direction across the backbone at a frame, toward the side that positive bend turns to.
+    #[must_use]
+    pub fn across(&self, pose: &Pose) -> Flat {
+        let tangent = pose.rotation.column(2).into_owned();
+        let [u, v] = self.point(&tangent).map(|x| x / MM);
+        [v, -u]
+    }
+}
+
+/// A point `distance` (mm) from `at` along `direction`.
+#[must_use]
+pub fn shifted(at: Flat, direction: Flat, distance: f64) -> Flat {
+    [at[0] + distance * direction[0], at[1] + distance * direction[1]]
+}
+
+/// Where something was at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mark {
+    /// s.
+    pub time: f64,
+    /// mm.
+    pub at: Flat,
+}
+
+/// The three loci over the run; a centrode that is not defined has no mark.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loci {
+    /// c_m: the model without constraint.
+    pub model: Vec<Mark>,
+    /// c_c: the model held at the true contact, while it holds.
+    pub constrained: Vec<Mark>,
+    /// c_s: from the sensor.
+    pub sensor: Vec<Mark>,
+}
+
+/// A backbone with its disks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// Points of the primary backbone from base to tip, mm.
+    pub backbone: Vec<Flat>,
+    /// The same, on both sides at the pitch radius, mm.
+    pub sides: [Vec<Flat>; 2],
+    /// Ends of each disk, base and end disk included, mm.
+    pub disks: Vec<[Flat; 2]>,
+}
+
+/// The beam's centre and radius, and the point of the backbone that it holds, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Centre.
+    pub center: Flat,
+    /// Radius.
+    pub radius: f64,
+    /// Where the backbone is held.
+    pub touches: Flat,
+}
+
+/// Everything that is drawn from one run.
+#[derive(Debug, Clone)]
+pub struct Track<'a> {
+    run: &'a Run,
+    plant: Plant<'a>,
+    projection: Projection,
+}
+
+impl<'a> Track<'a> {
+    /// The track of a run.
+    #[must_use]
+    pub fn new(run: &'a Run) -> Self {
+        let plant = Plant::new(&run.plan);
+        let projection = Projection::of(plant.command(0.0).0);
+        Self { run, plant, projection }
+    }
+
+    /// The true shape at a time.
+    #[must_use]
+    pub fn truth(&self, time: f64) -> Shape {
+        self.plant.shape(self.plant.command(time).0)
+    }
+
+    /// The shape without constraint, while contact holds at a time.
+    #[must_use]
+    pub fn ghost(&self, time: f64) -> Option<Vec<Flat>> {
+        let configuration = self.plant.command(time).0;
+        let arc = Arc { length: self.run.plan.segment().length, configuration };
+        self.plant.in_contact(&configuration).then(|| self.backbone(&Shape::Free(arc)))
+    }
+
+    /// A point of a shape, mm.
+    #[must_use]
+    pub fn place(&self, shape: &Shape, s: f64) -> Flat {
+        self.projection.point(&shape.pose(s).position)
+    }
+
+    /// A vector of {B} projected, mm; not defined where it is not.
+    #[must_use]
+    pub fn flat(&self, p: &Vec3) -> Flat {
+        self.projection.point(p)
+    }
+
+    fn backbone(&self, shape: &Shape) -> Vec<Flat> {
+        let length = self.run.plan.segment().length;
+        (0..=POINTS).map(|k| self.place(shape, length * k as f64 / POINTS as f64)).collect()
+    }
+
+    /// The robot in a shape.
+    #[must_use]
+    pub fn robot(&self, shape: &Shape) -> Robot {
+        let segment = self.run.plan.segment();
+        let (length, radius) = (segment.length, segment.pitch_radius * MM);
+        let side = |sign: f64| {
+            (0..=POINTS)
+                .map(|k| {
+                    let pose = shape.pose(length * k as f64 / POINTS as f64);
+                    shifted(self.projection.point(&pose.position), self.projection.across(&pose), sign * radius)
+                })
+                .collect()
+        };
+        let spacers = self.run.plan.scenario().robot.disks.iter().copied();
+        let disks = std::iter::once(0.0).chain(spacers).chain([length]).map(|s| {
+            let pose = shape.pose(s);
+            let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
+            [-DISK, DISK].map(|end| shifted(at, across, end * radius))
+        });
+        Robot { backbone: self.backbone(shape), sides: [side(-1.0), side(1.0)], disks: disks.collect() }
+    }
+
+    /// The beam, when there is one. It stands on the side that the segment bends to, against the disk's rim.
+    #[must_use]
+    pub fn beam(&self) -> Option<Beam> {
+        let contact = self.run.plan.contact()?;
+        let segment = self.run.plan.segment();
+        let configuration = self.plant.command(0.0).0.with_bend(contact.bend);
+        let pose = Arc { length: segment.length, configuration }.pose(contact.arc_length);
+        let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
+        let pitch = segment.pitch_radius * MM;
+        let disks = &self.run.plan.scenario().robot.disks;
+        let on_disk = disks.iter().chain([&segment.length]).any(|s| (s - contact.arc_length).abs() < 1e-9);
+        let radius = BEAM * pitch;
+        let away = radius + pitch * if on_disk { DISK } else { 1.0 };
+        Some(Beam { center: shifted(at, across, contact.side * away), radius, touches: at })
+    }
+
+    /// Samples at equal steps of the bend, `count` over the motion: marks stand evenly, however slow its ends are.
+    #[must_use]
+    pub fn evenly(&self, count: usize) -> Vec<&'a Sample> {
+        let motion = &self.run.plan.scenario().motion;
+        let step = (motion.theta_end - motion.theta_start).abs() / count as f64;
+        let mut next = 0.0;
+        let mut chosen = Vec::with_capacity(count + 1);
+        for sample in &self.run.samples {
+            let done = (sample.theta_l - motion.theta_start).abs();
+            if step > 0.0 && done > 0.0 && done >= next {
+                chosen.push(sample);
+                next = ((done / step).floor() + 1.0) * step - 1e-9 * step;
+            }
+        }
+        chosen
+    }
+
+    /// The centrode of the segment held at the true contact, mm.
+    fn held_centrode(&self, sample: &Sample) -> Option<Flat> {
+        let contact = self.run.plan.contact().filter(|_| sample.in_contact)?;
+        let configuration = self.plant.command(sample.time).0;
+        let held = Constrained::new(self.run.plan.segment().length, contact.arc_length, contact.bend, configuration);
+        held.centrode(BENDING).map(|c| self.flat(&c))
+    }
+
+    /// c_c at a time, while contact holds, mm.
+    #[must_use]
+    pub fn constrained_at(&self, time: f64) -> Option<Flat> {
+        self.held_centrode(self.run.sample_at(time))
+    }
+
+    /// The loci.
+    #[must_use]
+    pub fn loci(&self) -> Loci {
+        let mut loci = Loci::default();
+        let least = self.run.plan.scenario().detection.min_speed;
+        let finite = |at: &Flat| at.iter().all(|x| x.is_finite());
+        for sample in self.evenly(MARKS) {
+            let time = sample.time;
+            let model = self.flat(&sample.judgement.model_centrode);
+            loci.model.extend(Some(model).filter(finite).map(|at| Mark { time, at }));
+            loci.constrained.extend(self.held_centrode(sample).filter(finite).map(|at| Mark { time, at }));
+        }
+        for sample in self.evenly(2 * MARKS) {
+            let at = self.flat(&sample.judgement.sensor_centrode);
+            if finite(&at) && sample.judgement.speed > least {
+                loci.sensor.push(Mark { time: sample.time, at });
+            }
+        }
+        loci
+    }
+
+    /// Least and greatest coordinates of what the whole run draws, mm, sensor apart: it may lie anywhere.
+    #[must_use]
+    pub fn bounds(&self, loci: &Loci) -> [Flat; 2] {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mut include = |at: Flat| {
+            for i in 0..2 {
+                if at[i].is_finite() {
+                    bounds[0][i] = bounds[0][i].min(at[i]);
+                    bounds[1][i] = bounds[1][i].max(at[i]);
+                }
+            }
+        };
+        loci.model.iter().chain(&loci.constrained).for_each(|mark| include(mark.at));
+        let first = self.run.samples.first();
+        for sample in first.into_iter().chain(self.evenly(12)) {
+            let shape = self.truth(sample.time);
+            self.robot(&shape).disks.iter().flatten().for_each(|&at| include(at));
+            self.ghost(sample.time).into_iter().flatten().for_each(&mut include);
+        }
+        if let Some(Beam { center, radius, .. }) = self.beam() {
+            include(center.map(|x| x - radius));
+            include(center.map(|x| x + radius));
+        }
+        bounds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::{Scenario, preset, simulate};
+
+    fn run(name: &str) -> Run {
+        simulate(&preset::find(name).and_then(preset::Preset::scenario).expect("preset")).expect("run")
+    }
+
+    #[test]
+    fn the_plane_turns_with_the_bending_direction() {
+        let flat = |delta: f64| {
+            let mut scenario = Scenario::default();
+            scenario.motion.delta = delta;
+            let run = simulate(&scenario).expect("run");
+            let track = Track::new(&run);
+            (track.bounds(&track.loci()), track.beam().expect("beam"))
+        };
+        let (straight, turned) = (flat(0.0), flat(2.1));
+        for i in 0..2 {
+            for j in 0..2 {
+                assert!((straight.0[i][j] - turned.0[i][j]).abs() < 1e-6);
+            }
+            assert!((straight.1.center[i] - turned.1.center[i]).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn what_leaves_the_plane_is_projected() {
+        let projection = Projection::of(Configuration::new(0.3, 0.0));
+        assert_eq!(projection.point(&Vec3::new(0.001, 0.5, 0.002)), [1.0, 2.0]);
+    }
+
+    #[test]
+    fn marks_stand_evenly_along_the_bend() {
+        let run = run("paper");
+        let track = Track::new(&run);
+        let samples = track.evenly(30);
+        assert!((29..=31).contains(&samples.len()), "{}", samples.len());
+        let steps: Vec<f64> = samples.windows(2).map(|pair| pair[0].theta_l - pair[1].theta_l).collect();
+        let even = std::f64::consts::FRAC_PI_2 / 30.0;
+        assert!(steps[1..].iter().all(|step| (step - even).abs() < 0.1 * even), "{steps:?}");
+        assert!(samples.iter().all(|sample| (3.0..=8.0).contains(&sample.time)));
+    }
+
+    #[test]
+    fn constrained_marks_exist_only_while_contact_holds() {
+        let run = run("paper");
+        let loci = Track::new(&run).loci();
+        assert!(!loci.constrained.is_empty() && loci.constrained.iter().all(|mark| mark.time >= 5.8));
+        assert!(Track::new(&self::run("free")).loci().constrained.is_empty());
+    }
+
+    #[test]
+    fn the_beam_touches_the_disk_rim_on_the_side_bent_to() {
+        let run = run("paper");
+        let track = Track::new(&run);
+        let beam = track.beam().expect("beam");
+        let away = (beam.center[0] - beam.touches[0]).hypot(beam.center[1] - beam.touches[1]);
+        assert!((away - (3.0 * DISK + beam.radius)).abs() < 1e-9);
+        assert!(beam.center[0] > beam.touches[0]);
+        // The held shape passes the point that the beam holds, as long as it holds.
+        for time in [5.9, 7.0, 9.5] {
+            let at = track.place(&track.truth(time), 0.015);
+            assert!((at[0] - beam.touches[0]).hypot(at[1] - beam.touches[1]) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_robot_that_does_not_move_is_still_drawn() {
+        let mut scenario = Scenario::default();
+        scenario.motion.theta_end = scenario.motion.theta_start;
+        let run = simulate(&scenario).expect("run");
+        let track = Track::new(&run);
+        let bounds = track.bounds(&track.loci());
+        assert!(bounds.iter().flatten().all(|x| x.is_finite()));
+    }
+}

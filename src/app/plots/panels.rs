@@ -1,0 +1,190 @@
+//! The three plots.
+
+use super::View;
+use super::axis::Steps;
+use super::frame::{ReadOut, SMALL, Style};
+use super::marks::{Judged, empty};
+use super::range::top;
+use super::threshold::Line;
+use crate::app::command::Command;
+use crate::app::notation::{job, number};
+use crate::app::theme::Theme;
+use crate::experiment::scenario::Threshold;
+use crate::experiment::{Method, Sample};
+use egui::{Color32, Ui};
+
+/// Deviations are shown in mm.
+const FCD: Judged = Judged { method: Method::Fcd, name: "‖c_m − c_s‖", scale: 1e3, unit: "mm", decimals: 2 };
+/// Joint force deviations are shown in mN·m.
+const JFD: Judged = Judged { method: Method::Jfd, name: "Θ", scale: 1e3, unit: "mN·m", decimals: 1 };
+
+/// Colour of what the load cells say: Okabe and Ito's reddish purple, darker on white so that a thin line can be read.
+fn force_color(theme: &Theme) -> Color32 {
+    if theme.dark { Color32::from_rgb(0xE2, 0x95, 0xC1) } else { Color32::from_rgb(0xA9, 0x4A, 0x82) }
+}
+
+/// ‖c_m − c_s‖ with ξ2.
+pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
+    let settings = view.run.plan.scenario().detection.clone();
+    let color = view.frame.theme.sensor;
+    let value = |sample: &Sample| sample.judgement.deviation * FCD.scale;
+    let judged = |sample: &&Sample| {
+        sample.time >= settings.armed_from && sample.judgement.speed > settings.min_speed
+    };
+    judging(ui, view, settings.xi2, 0.007, judged, value, Shown {
+        judged: FCD,
+        symbol: "ξ2",
+        color,
+        long: "Centrode deviation ‖c_m − c_s‖ (mm)",
+        short: "‖c_m − c_s‖ (mm)",
+        label: "Plot of the centrode deviation over time",
+        others: &[],
+    });
+}
+
+/// Θ with ξ1, and both bounds ε_c.
+pub fn force(ui: &mut Ui, view: &mut View<'_>) {
+    let settings = view.run.plan.scenario().detection.clone();
+    let color = force_color(&view.frame.theme);
+    let value = |sample: &Sample| sample.judgement.residual * JFD.scale;
+    let judged = |sample: &&Sample| sample.time >= settings.armed_from;
+    let dim = view.frame.theme.dim;
+    judging(ui, view, settings.xi1, 0.03, judged, value, Shown {
+        judged: JFD,
+        symbol: "ξ1",
+        color,
+        long: "Joint force deviation Θ (mN·m)",
+        short: "Θ (mN·m)",
+        label: "Plot of the joint force deviation over time",
+        others: &[
+            Other {
+                name: "ε_c",
+                value: |sample| sample.judgement.common_bound * JFD.scale,
+                color: dim,
+                style: Style::Thin,
+            },
+            Other {
+                name: "ε_c indep.",
+                value: |sample| sample.judgement.independent_bound * JFD.scale,
+                color: dim,
+                style: Style::Dashed,
+            },
+        ],
+    });
+}
+
+/// What a plot with a threshold shows.
+struct Shown<'a> {
+    judged: Judged,
+    symbol: &'static str,
+    color: Color32,
+    long: &'a str,
+    short: &'a str,
+    label: &'a str,
+    others: &'a [Other],
+}
+
+/// A line beside the one that is judged.
+struct Other {
+    name: &'static str,
+    value: fn(&Sample) -> f64,
+    color: Color32,
+    style: Style,
+}
+
+fn judging(
+    ui: &mut Ui,
+    view: &mut View<'_>,
+    threshold: Threshold,
+    default: f64,
+    judged: impl Fn(&&Sample) -> bool,
+    value: impl Fn(&Sample) -> f64,
+    shown: Shown<'_>,
+) {
+    let which = view.which;
+    if let Some(on) = threshold.value() {
+        view.state.last_on[which] = Some(on);
+    }
+    let otherwise = view.state.last_on[which].unwrap_or(default);
+    let high = view.state.held[which].unwrap_or_else(|| {
+        let mut values: Vec<f64> = view.run.samples.iter().filter(judged).map(&value).collect();
+        top(threshold.value().unwrap_or(otherwise) * shown.judged.scale, &mut values)
+    });
+    let values = view.frame.values([0.0, high]);
+    let frame = view.frame;
+    let painter = ui.painter().clone();
+    let now = view.run.sample_at(view.cursor);
+    let decimals = shown.judged.decimals;
+    let mut readouts = vec![ReadOut {
+        name: if shown.others.is_empty() { "" } else { shown.judged.name },
+        value: number(value(now), decimals),
+        color: shown.color,
+        style: Style::Strong,
+    }];
+    readouts.extend(shown.others.iter().map(|other| ReadOut {
+        name: other.name,
+        value: number((other.value)(now), decimals),
+        color: other.color,
+        style: other.style,
+    }));
+
+    view.scrub(ui, shown.label);
+    frame.title(&painter, shown.long, shown.short, &readouts);
+    frame.grid(&painter, &values, Steps::Decimal);
+    view.arming(ui, &painter);
+    view.contact(&painter, 4.0);
+    for other in shown.others {
+        frame.curve(&painter, view.run, &values, other.value, other.color, other.style);
+    }
+    let stretches = frame.curve(&painter, view.run, &values, &value, shown.color, Style::Strong);
+    if stretches.is_empty() {
+        empty(&painter, &frame, "not defined anywhere in this run");
+    }
+    frame.off_scale(&painter, &values, &stretches, shown.color);
+    view.detection(&painter, which == 0);
+    let mut dots: Vec<_> = shown.others.iter().map(|other| ((other.value)(now), other.color)).collect();
+    dots.push((value(now), shown.color));
+    view.cursor(&painter, &values, &dots);
+
+    let line = Line { name: shown.symbol, threshold, otherwise, judged: shown.judged, color: shown.color };
+    let outcome = view.threshold(ui, &values, &line);
+    view.state.held[which] = outcome.moving.then_some(high);
+    if let Some(changed) = outcome.changed {
+        view.out.push(match shown.judged.method {
+            Method::Fcd => Command::SetXi2(changed),
+            Method::Jfd => Command::SetXi1(changed),
+        });
+    }
+    if !view.crossings(ui, &painter, &values, shown.judged, shown.color) {
+        view.hover(&painter, |sample| {
+            let line = |name: &str, value: f64, color| {
+                job(&format!("{name} {} {}", number(value, decimals), shown.judged.unit), SMALL + 1.0, color)
+            };
+            let mut lines = vec![line(shown.judged.name, value(sample), shown.color)];
+            lines.extend(shown.others.iter().map(|other| line(other.name, (other.value)(sample), other.color)));
+            lines
+        });
+    }
+}
+
+/// θL, with the contact shaded.
+pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
+    let frame = view.frame;
+    let theme = frame.theme;
+    let painter = ui.painter().clone();
+    let value = |sample: &Sample| sample.theta_l.to_degrees();
+    let motion = &view.run.plan.scenario().motion;
+    let (a, b) = (motion.theta_start.to_degrees(), motion.theta_end.to_degrees());
+    let margin = 0.08 * (a - b).abs().max(10.0);
+    let values = frame.values([a.min(b) - margin, a.max(b) + margin]);
+    let now = view.run.sample_at(view.cursor);
+    let readout = ReadOut { name: "", value: number(value(now), 1), color: theme.robot, style: Style::Strong };
+    view.scrub(ui, "Plot of the tangent angle over time");
+    frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
+    frame.grid(&painter, &values, Steps::Degrees);
+    view.contact(&painter, frame.data.height());
+    frame.curve(&painter, view.run, &values, value, theme.robot, Style::Strong);
+    view.detection(&painter, false);
+    view.cursor(&painter, &values, &[(value(now), theme.robot)]);
+    view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
+}

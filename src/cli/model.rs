@@ -1,0 +1,182 @@
+//! `centrode model`: every quantity of the model in one configuration.
+
+use super::output::{Failure, json};
+use crate::experiment::plan::check_bend;
+use crate::experiment::scenario::Robot;
+use crate::model::joints::{joint_jacobian, joints};
+use crate::model::{Configuration, Constrained, Rate, Segment};
+use clap::Args;
+use serde::Serialize;
+use std::io::Write;
+
+/// Flags of `centrode model`; SI units and radians.
+#[derive(Debug, Args)]
+pub struct ModelArgs {
+    /// Tangent angle at the end disk, rad; pi/2 is straight.
+    #[arg(long, value_name = "RAD", allow_hyphen_values = true)]
+    theta_l: f64,
+    /// Direction of the bending plane, rad.
+    #[arg(long, value_name = "RAD", allow_hyphen_values = true, default_value_t = 0.0)]
+    delta: f64,
+    /// Arc length at which pose and Jacobian are taken, m; the tip when left out.
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    s: Option<f64>,
+    /// Arc length at which the segment is held, m; the base when left out.
+    #[arg(long, value_name = "M", allow_hyphen_values = true, default_value_t = 0.0)]
+    contact: f64,
+    /// Velocity of (theta_l, delta), rad/s.
+    #[arg(long, value_name = "TL,D", allow_hyphen_values = true, value_parser = rate, default_value = "-1,0")]
+    rate: Rate,
+    /// Length of the primary backbone, m.
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    length: Option<f64>,
+    /// Radius of the pitch circle, m.
+    #[arg(long, value_name = "M", allow_hyphen_values = true)]
+    pitch_radius: Option<f64>,
+    /// Bending stiffness of the primary backbone, N·m².
+    #[arg(long, value_name = "N.m2", allow_hyphen_values = true)]
+    ep_ip: Option<f64>,
+    /// Bending stiffness of each secondary backbone, N·m².
+    #[arg(long, value_name = "N.m2", allow_hyphen_values = true)]
+    es_is: Option<f64>,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    json: bool,
+}
+
+fn rate(text: &str) -> Result<Rate, String> {
+    let (theta_l, delta) = text.split_once(',').ok_or("two numbers with a comma between them, as in -0.3,0.1")?;
+    let number = |text: &str| match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("{:?} is not a finite number", text.trim())),
+    };
+    Ok(Rate { theta_l: number(theta_l)?, delta: number(delta)? })
+}
+
+/// The answer, with the reference data's keys. Lengths in m, angles in rad, all in {B}.
+#[derive(Debug, Serialize)]
+struct Answer {
+    length: f64,
+    pitch_radius: f64,
+    ep_ip: f64,
+    es_is: f64,
+    theta_l: f64,
+    delta: f64,
+    s: f64,
+    s_c: f64,
+    rate: [f64; 2],
+    position: [f64; 3],
+    rotation: [[f64; 3]; 3],
+    jacobian_x: [[f64; 2]; 6],
+    jacobian_q: [[f64; 2]; 3],
+    joint: [f64; 3],
+    energy: f64,
+    energy_gradient: [f64; 2],
+    /// Null while nothing moves.
+    centrode: Option<[f64; 3]>,
+    constrained_position: [f64; 3],
+    constrained_twist: [f64; 6],
+    /// Null while nothing moves.
+    constrained_centrode: Option<[f64; 3]>,
+}
+
+impl ModelArgs {
+    /// Evaluates and prints.
+    pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        let answer = self.answer()?;
+        if self.json { json(out, &answer) } else { Ok(table(out, &answer)?) }
+    }
+
+    fn segment(&self) -> Result<Segment, Failure> {
+        let default = Robot::default().segment();
+        let segment = Segment {
+            length: self.length.unwrap_or(default.length),
+            pitch_radius: self.pitch_radius.unwrap_or(default.pitch_radius),
+            ep_ip: self.ep_ip.unwrap_or(default.ep_ip),
+            es_is: self.es_is.unwrap_or(default.es_is),
+        };
+        for (flag, value) in [("--length", segment.length), ("--pitch-radius", segment.pitch_radius)] {
+            demand(value > 0.0 && value <= 100.0, flag, value, "a number above 0 and at most 100 m")?;
+        }
+        for (flag, value) in [("--ep-ip", segment.ep_ip), ("--es-is", segment.es_is)] {
+            demand((0.0..=1e12).contains(&value), flag, value, "a number from 0 to 1e12 N·m²")?;
+        }
+        Ok(segment)
+    }
+
+    fn answer(&self) -> Result<Answer, Failure> {
+        let segment = self.segment()?;
+        let length = segment.length;
+        let s = self.s.unwrap_or(length);
+        let configuration = Configuration::from_theta_l(self.theta_l, self.delta);
+        check_bend(&segment, "--theta-l", self.theta_l, configuration.bend())
+            .map_err(|error| Failure::Input(error.to_string()))?;
+        demand(self.delta.is_finite(), "--delta", self.delta, "a finite angle in rad")?;
+        for (flag, value) in [("--s", s), ("--contact", self.contact)] {
+            demand((0.0..=length).contains(&value), flag, value, &format!("from 0 to the length, {length} m"))?;
+        }
+        let arc = segment.arc(configuration);
+        let (pose, jacobian) = arc.pose_and_jacobian(s);
+        let (tip, tip_jacobian) = arc.pose_and_jacobian(length);
+        let held = Constrained::new(length, self.contact, configuration.bend(), configuration);
+        let gradient = segment.energy_gradient(&configuration);
+        Ok(Answer {
+            length,
+            pitch_radius: segment.pitch_radius,
+            ep_ip: segment.ep_ip,
+            es_is: segment.es_is,
+            theta_l: self.theta_l,
+            delta: self.delta,
+            s,
+            s_c: self.contact,
+            rate: [self.rate.theta_l, self.rate.delta],
+            position: pose.position.into(),
+            rotation: pose.rotation.transpose().into(),
+            jacobian_x: jacobian.to_rows(),
+            jacobian_q: joint_jacobian(segment.pitch_radius, &configuration),
+            joint: joints(segment.pitch_radius, &configuration).into(),
+            energy: segment.energy(&configuration),
+            energy_gradient: [gradient.theta_l, gradient.delta()],
+            centrode: tip_jacobian.centrode(&tip.position, self.rate).map(Into::into),
+            constrained_position: held.tip_pose().position.into(),
+            constrained_twist: held.tip_twist(self.rate).to_array(),
+            constrained_centrode: held.centrode(self.rate).map(Into::into),
+        })
+    }
+}
+
+fn demand(ok: bool, flag: &str, value: f64, allowed: &str) -> Result<(), Failure> {
+    if ok { Ok(()) } else { Err(Failure::Input(format!("{flag} = {value} is not allowed: {allowed}"))) }
+}
+
+fn table(out: &mut impl Write, answer: &Answer) -> std::io::Result<()> {
+    let Answer { length, theta_l, delta, s, s_c, rate, .. } = answer;
+    let mut rows = |title: &str, unit: &str, scale: f64, rows: &[&[f64]]| {
+        for (i, row) in rows.iter().enumerate() {
+            let (title, unit) = if i == 0 { (title, unit) } else { ("", "") };
+            write!(out, "{title:<22}")?;
+            row.iter().try_for_each(|x| write!(out, " {:>14.6}", x * scale))?;
+            writeln!(out, "  {unit}")?;
+        }
+        Ok::<(), std::io::Error>(())
+    };
+    rows("length", "mm", 1e3, &[&[*length]])?;
+    rows("theta_l, delta", "deg", 1f64.to_degrees(), &[&[*theta_l, *delta]])?;
+    rows("rate", "rad/s", 1.0, &[rate])?;
+    rows("s, contact", "mm", 1e3, &[&[*s, *s_c]])?;
+    rows("position(s)", "mm", 1e3, &[&answer.position])?;
+    rows("rotation(s)", "", 1.0, &answer.rotation.each_ref().map(|row| &row[..]))?;
+    let (linear, angular) = answer.jacobian_x.split_at(3);
+    rows("jacobian_x linear", "mm/rad", 1e3, &[&linear[0], &linear[1], &linear[2]])?;
+    rows("jacobian_x angular", "1", 1.0, &[&angular[0], &angular[1], &angular[2]])?;
+    rows("jacobian_q", "mm/rad", 1e3, &answer.jacobian_q.each_ref().map(|row| &row[..]))?;
+    rows("joint", "mm", 1e3, &[&answer.joint])?;
+    rows("energy", "mJ", 1e3, &[&[answer.energy]])?;
+    rows("energy_gradient", "mN·m", 1e3, &[&answer.energy_gradient])?;
+    let undefined = [f64::NAN; 3];
+    rows("centrode", "mm", 1e3, &[&answer.centrode.unwrap_or(undefined)])?;
+    rows("constrained position", "mm", 1e3, &[&answer.constrained_position])?;
+    rows("constrained linear", "mm/s", 1e3, &[&answer.constrained_twist[..3]])?;
+    rows("constrained angular", "rad/s", 1.0, &[&answer.constrained_twist[3..]])?;
+    rows("constrained centrode", "mm", 1e3, &[&answer.constrained_centrode.unwrap_or(undefined)])
+}

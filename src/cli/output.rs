@@ -1,0 +1,113 @@
+//! How the command ends, and how it writes files and JSON.
+
+use serde::Serialize;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// Why the command stops early.
+#[derive(Debug)]
+pub enum Failure {
+    /// What was asked for cannot be done: one line for standard error.
+    Input(String),
+    /// Standard output is gone.
+    Output(io::Error),
+}
+
+impl From<io::Error> for Failure {
+    fn from(error: io::Error) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl Failure {
+    /// Says why, in one line, and gives the exit code.
+    pub fn report(self) -> ExitCode {
+        let line = match self {
+            Self::Output(error) if error.kind() == ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
+            Self::Output(error) => format!("cannot write the output: {error}"),
+            Self::Input(line) => line,
+        };
+        let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+        // With standard error closed as well, the exit code is all that is left.
+        let _ = writeln!(io::stderr(), "centrode: {line}");
+        ExitCode::from(2)
+    }
+}
+
+/// Writes a value as indented JSON and a newline.
+pub fn json(out: &mut impl Write, value: &impl Serialize) -> Result<(), Failure> {
+    serde_json::to_writer_pretty(&mut *out, value).map_err(io::Error::from)?;
+    Ok(writeln!(out)?)
+}
+
+/// A file that appears under its name only when it is complete.
+#[derive(Debug)]
+pub struct NewFile {
+    path: PathBuf,
+    part: Option<PathBuf>,
+    writer: BufWriter<File>,
+}
+
+impl NewFile {
+    /// Opens a file to write; what already stands under the name stays until [`NewFile::finish`].
+    pub fn create(path: &Path) -> Result<Self, Failure> {
+        // A device or a pipe cannot be replaced: it is written to as it is.
+        let special = fs::metadata(path).is_ok_and(|meta| !meta.is_file());
+        let part = (!special).then(|| {
+            let mut name = path.as_os_str().to_owned();
+            name.push(format!(".{}.part", std::process::id()));
+            PathBuf::from(name)
+        });
+        let file = match &part {
+            Some(part) => File::create(part),
+            None => File::options().write(true).open(path),
+        };
+        let file = file.map_err(|error| unwritable(path, &error))?;
+        Ok(Self { path: path.into(), part, writer: BufWriter::new(file) })
+    }
+
+    /// Completes the file.
+    pub fn finish(mut self) -> Result<(), Failure> {
+        let done = self.writer.flush().and_then(|()| match &self.part {
+            Some(part) => fs::rename(part, &self.path),
+            None => Ok(()),
+        });
+        if done.is_ok() {
+            self.part = None;
+        }
+        done.map_err(|error| unwritable(&self.path, &error))
+    }
+
+    /// Names the file in a failure to write it.
+    pub fn blame(&self, error: &io::Error) -> Failure {
+        unwritable(&self.path, error)
+    }
+}
+
+impl Write for NewFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
+    }
+}
+
+impl Drop for NewFile {
+    fn drop(&mut self) {
+        if let Some(part) = &self.part {
+            // Half a file is worse than none; that it cannot be removed changes nothing.
+            let _ = fs::remove_file(part);
+        }
+    }
+}
+
+fn unwritable(path: &Path, error: &io::Error) -> Failure {
+    if error.kind() == ErrorKind::BrokenPipe {
+        return Failure::Output(ErrorKind::BrokenPipe.into());
+    }
+    Failure::Input(format!("cannot write {}: {error}", path.display()))
+}

@@ -1,0 +1,144 @@
+//! A run at one instant, as a scene.
+
+mod loci;
+mod robot;
+
+use super::palette::Palette;
+use super::{Camera, Ground, Pose, Scene};
+use crate::experiment::Run;
+use crate::experiment::plant::Plant;
+use crate::model::{self, Arc};
+use glam::{DMat3, DQuat, DVec3, Vec3};
+use robot::Proportions;
+
+/// How a run is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewOptions {
+    /// Colours.
+    pub palette: Palette,
+    /// How far the ring around a fresh detection has run, 0..1; 0 shows none.
+    pub pulse: f32,
+}
+
+/// The scene of `run` at `time` (s): robot, beam, ghost, screw axes, centrode loci, estimate.
+#[must_use]
+pub fn view(run: &Run, time: f64, options: &ViewOptions) -> Scene {
+    let palette = &options.palette;
+    let plant = Plant::new(&run.plan);
+    let (configuration, _) = plant.command(time);
+    let shape = plant.shape(configuration);
+    let sizes = Proportions::of(run);
+    let mut scene = Scene { ground: Some(floor(run, palette, &sizes)), ..Scene::default() };
+    let pose = |s: f32| scene_pose(&shape.pose(f64::from(s)));
+    robot::robot(&mut scene, palette, &sizes, pose);
+    if let Some(contact) = run.plan.contact() {
+        let at_contact =
+            Arc { length: run.plan.segment().length, configuration: configuration.with_bend(contact.bend) };
+        let delta = configuration.delta() as f32;
+        robot::beam(&mut scene, palette, &sizes, &scene_pose(&at_contact.pose(contact.arc_length)), contact, delta);
+    }
+    if plant.in_contact(&configuration) {
+        let free = Arc { length: run.plan.segment().length, configuration };
+        robot::ghost(&mut scene, palette, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
+    }
+    loci::loci(&mut scene, palette, run, time);
+    loci::axes(&mut scene, palette, run, time);
+    if let Some(detection) = run.detection.filter(|detection| detection.time <= time) {
+        loci::estimate(&mut scene, options, pose(detection.location as f32).position, detection.location);
+    }
+    scene
+}
+
+/// The view in which a segment of this run's length opens.
+#[must_use]
+pub fn home_camera(run: &Run) -> Camera {
+    let default = Camera::default();
+    let scale = run.plan.segment().length as f32 / DESIGN_LENGTH;
+    Camera::looking_at(default.target * scale, default.distance * scale, default.yaw, default.pitch)
+}
+
+/// The length for which camera, floor and sizes were chosen by eye, m; others are scaled to it.
+const DESIGN_LENGTH: f32 = 0.030;
+
+fn floor(run: &Run, palette: &Palette, sizes: &Proportions) -> Ground {
+    let scale = run.plan.segment().length as f32 / DESIGN_LENGTH;
+    Ground {
+        center: Vec3::new(0.004 * scale, 0.0, sizes.floor),
+        radius: 0.062 * scale,
+        spacing: 0.005 * scale,
+        major: 2,
+        line: palette.grid,
+        glow: palette.glow,
+        shadow: palette.ground_shadow,
+        contacts: vec![[0.0, 0.0, 1.85 * sizes.disk, 0.45]],
+    }
+}
+
+fn scene_vector(v: &model::Vec3) -> Vec3 {
+    DVec3::from_slice(v.as_slice()).as_vec3()
+}
+
+fn scene_pose(pose: &model::Pose) -> Pose {
+    let rotation = DMat3::from_cols_slice(pose.rotation.as_slice());
+    Pose::new(scene_vector(&pose.position), DQuat::from_mat3(&rotation).as_quat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::scenario::{Place, Scenario};
+    use crate::experiment::simulate;
+    use crate::scene::{Finish, Shape};
+
+    fn at(scenario: &Scenario, time: f64) -> Scene {
+        let run = simulate(scenario).expect("valid");
+        view(&run, time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0 })
+    }
+
+    fn count(scene: &Scene, shape: Shape) -> usize {
+        scene.markers.iter().filter(|marker| marker.shape == shape).count()
+    }
+
+    fn ghosts(scene: &Scene) -> usize {
+        scene.tubes.iter().filter(|tube| tube.finish == Finish::Ghost).count()
+    }
+
+    #[test]
+    fn the_story_is_told_in_order() {
+        let scenario = Scenario::default();
+        let (rest, bending, held, found) =
+            (at(&scenario, 1.0), at(&scenario, 5.5), at(&scenario, 6.1), at(&scenario, 7.0));
+        assert_eq!((ghosts(&rest), ghosts(&bending)), (0, 0));
+        assert!(ghosts(&held) > 0, "the ghost appears with the contact");
+        assert_eq!(
+            (count(&held, Shape::Diamond), count(&found, Shape::Diamond)),
+            (0, 1),
+            "the estimate with the alarm"
+        );
+        assert!(count(&rest, Shape::Triangle) > 5, "the model's locus is known beforehand");
+        assert!(count(&found, Shape::Dot) > count(&bending, Shape::Dot), "the sensor's locus grows");
+        assert_eq!(rest.blocks.len(), found.blocks.len(), "the beam stands there from the start");
+    }
+
+    #[test]
+    fn without_contact_there_is_no_beam_and_no_constrained_locus() {
+        let mut scenario = Scenario::default();
+        scenario.contact.place = Place::Nowhere;
+        let free = at(&scenario, 7.0);
+        assert_eq!((ghosts(&free), count(&free, Shape::Circle)), (0, 0));
+        assert!(free.blocks.len() < at(&Scenario::default(), 7.0).blocks.len());
+    }
+
+    #[test]
+    fn everything_is_finite_in_every_preset() {
+        for preset in crate::experiment::preset::PRESETS {
+            let scenario = preset.scenario().expect(preset.name);
+            for time in [0.0, 3.0, 5.0, 6.5, 8.2, 10.0, 99.0] {
+                let scene = at(&scenario, time);
+                let paths = scene.tubes.iter().map(|tube| &tube.path).chain(scene.lines.iter().map(|line| &line.path));
+                assert!(paths.flatten().all(|p| p.is_finite()), "{} at {time}", preset.name);
+                assert!(scene.markers.iter().all(|marker| marker.position.is_finite()), "{} at {time}", preset.name);
+            }
+        }
+    }
+}

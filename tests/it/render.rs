@@ -1,0 +1,300 @@
+//! The renderer, looked at by its pixels.
+
+use centrode::render::{Frame, Renderer, ViewId};
+use centrode::scene::{
+    Block, Camera, Color, Finish, Ground, Line, Marker, Pose, Scene, Shape, Solid, Studio, demo, palette::Palette,
+};
+use glam::{Quat, Vec2, Vec3};
+
+use crate::gpu::{Gpu, Picture, render};
+
+const SIZE: [u32; 2] = [240, 180];
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+const RED: Color = Color::hex(0xD02020);
+const BLUE: Color = Color::hex(0x2020D0);
+
+/// One colour all over, so that pixels can be compared.
+fn flat(background: Color) -> Studio {
+    Studio { inner: background, outer: background, ..Studio::LIGHT }
+}
+
+/// From −y, level: x to the right, z up, 1 m wide and more.
+fn level() -> Camera {
+    Camera::looking_at(Vec3::ZERO, 4.0, -std::f32::consts::FRAC_PI_2, 0.0)
+}
+
+fn cube(at: Vec3, half: f32, color: Color) -> Block {
+    Block {
+        pose: Pose::new(at, Quat::IDENTITY),
+        solid: Solid::Box { half: Vec3::splat(half) },
+        bevel: 0.0,
+        color,
+        finish: Finish::Matte,
+    }
+}
+
+fn shown(scene: &Scene, camera: &Camera, studio: &Studio) -> Picture {
+    let gpu = Gpu::new();
+    let mut renderer = Renderer::new(&gpu.device, FORMAT);
+    render(&gpu, &mut renderer, (scene, 1), camera, studio, (SIZE, 1.0), wgpu::Color::BLACK)
+}
+
+fn near(pixel: [u8; 4], color: Color, tolerance: i32) -> bool {
+    let wanted = color.to_bytes();
+    (0..3).all(|i| (i32::from(pixel[i]) - i32::from(wanted[i])).abs() <= tolerance)
+}
+
+fn at(picture: &Picture, camera: &Camera, point: Vec3) -> [u8; 4] {
+    let size = Vec2::new(SIZE[0] as f32, SIZE[1] as f32);
+    let pixel = camera.project(point, size).expect("in view");
+    picture.at(pixel.x as u32, pixel.y as u32)
+}
+
+#[test]
+fn the_demo_shows_robot_background_and_every_signal() {
+    let gpu = Gpu::new();
+    let mut renderer = Renderer::new(&gpu.device, FORMAT);
+    let camera = Camera::default();
+    let size = [640, 480];
+    for (version, palette) in [Palette::LIGHT, Palette::DARK].into_iter().enumerate() {
+        let scene = demo::scene(&palette, 1.3);
+        let picture = render(
+            &gpu,
+            &mut renderer,
+            (&scene, version as u64),
+            &camera,
+            &palette.studio,
+            (size, 1.0),
+            wgpu::Color::GREEN,
+        );
+        for (x, y) in [(2, 2), (637, 2)] {
+            assert!(near(picture.at(x, y), palette.studio.outer, 12));
+        }
+        assert!(picture.pixels.iter().all(|p| p[3] == 255), "an opaque view");
+        for signal in [palette.model, palette.constrained, palette.sensor, palette.detection] {
+            let count = picture.pixels.iter().filter(|p| near(**p, signal, 6)).count();
+            assert!(count >= 12, "{signal:?}: {count} pixels");
+        }
+        // The base plate stands on the z axis.
+        let view = Vec2::new(640.0, 480.0);
+        let base = camera.project(Vec3::new(0.0015, -0.0015, 0.0004), view).unwrap();
+        let pixel = picture.at(base.x as u32, base.y as u32);
+        assert!(!near(pixel, palette.studio.inner, 20), "{pixel:?}");
+    }
+}
+
+#[test]
+fn the_nearer_box_hides_the_farther_in_either_order() {
+    let front = cube(Vec3::new(0.0, -0.5, 0.0), 0.2, RED);
+    let back = cube(Vec3::new(0.0, 0.5, 0.0), 0.5, BLUE);
+    for blocks in [vec![front, back], vec![back, front]] {
+        let scene = Scene { blocks, ..Default::default() };
+        let camera = level();
+        let picture = shown(&scene, &camera, &flat(Color::BLACK));
+        let middle = at(&picture, &camera, Vec3::ZERO);
+        assert!(middle[0] > 2 * middle[2], "{middle:?}");
+        let beside = at(&picture, &camera, Vec3::new(0.4, 0.0, 0.0));
+        assert!(beside[2] > 2 * beside[0], "{beside:?}");
+    }
+}
+
+#[test]
+fn edges_are_smooth() {
+    let mut tilted = cube(Vec3::ZERO, 0.5, Color::WHITE);
+    tilted.pose.rotation = Quat::from_rotation_y(0.3);
+    let scene = Scene { blocks: vec![tilted], ..Default::default() };
+    let picture = shown(&scene, &level(), &flat(Color::BLACK));
+    let inside = picture.at(120, 90)[0];
+    let between = picture.pixels.iter().filter(|p| p[0] > inside / 5 && p[0] < inside - inside / 5).count();
+    assert!(inside > 100 && between > 40, "{inside} {between}");
+}
+
+#[test]
+fn a_translucent_body_lets_through_what_is_behind() {
+    let scene = Scene {
+        blocks: vec![cube(Vec3::new(0.0, -0.5, 0.0), 0.4, RED.alpha(0.5)), cube(Vec3::new(0.0, 0.5, 0.0), 0.4, BLUE)],
+        ..Default::default()
+    };
+    let picture = shown(&scene, &level(), &flat(Color::BLACK));
+    let [r, _, b, a] = picture.at(120, 90);
+    assert!(r > 40 && b > 40, "{r} {b}");
+    assert_eq!(a, 255);
+}
+
+#[test]
+fn each_marker_has_its_form() {
+    let camera = level();
+    // Points from the middle, as parts of the half size, and whether there is colour.
+    let forms: [(Shape, &[(f32, f32, bool)]); 6] = [
+        (Shape::Circle, &[(0.0, 0.0, true), (0.6, 0.6, true), (0.85, 0.85, false)]),
+        (Shape::Triangle, &[(0.0, 0.0, true), (0.7, 0.6, false), (-0.7, 0.6, false), (0.6, -0.5, true)]),
+        (Shape::Dot, &[(0.0, 0.0, true), (0.75, 0.0, false)]),
+        (Shape::Cross, &[(0.0, 0.0, true), (0.8, 0.0, true), (0.0, -0.8, true), (0.6, 0.6, false)]),
+        (Shape::Diamond, &[(0.0, 0.0, true), (0.8, 0.0, true), (0.75, 0.75, false)]),
+        (Shape::Ring, &[(0.0, 0.0, false), (0.9, 0.0, true), (0.0, 0.9, true)]),
+    ];
+    for (shape, probes) in forms {
+        let scene = Scene { markers: vec![Marker::new(Vec3::ZERO, shape, 60.0, RED)], ..Default::default() };
+        let picture = shown(&scene, &camera, &flat(Color::WHITE));
+        for &(x, y, colored) in probes {
+            let pixel = picture.at((120.0 + 30.0 * x) as u32, (90.0 - 30.0 * y) as u32);
+            let wanted = if colored { RED } else { Color::WHITE };
+            assert!(near(pixel, wanted, 3), "{shape:?} at {x}, {y}: {pixel:?}");
+        }
+    }
+}
+
+#[test]
+fn a_marker_has_an_edge_and_a_pulse() {
+    let marker = Marker::new(Vec3::ZERO, Shape::Circle, 40.0, RED);
+    let count = |marker: Marker, color: Color| {
+        let scene = Scene { markers: vec![marker], ..Default::default() };
+        let picture = shown(&scene, &level(), &flat(Color::WHITE));
+        picture.pixels.iter().filter(|p| near(**p, color, 3)).count()
+    };
+    assert!(count(marker.outlined(BLUE, 3.0), BLUE) > 250);
+    let colored = |pulse| 240 * 180 - count(marker.pulsing(pulse), Color::WHITE);
+    assert!(colored(0.4) > colored(0.0) + 100);
+    assert_eq!(colored(1.0), colored(0.0));
+}
+
+#[test]
+fn what_is_behind_something_is_faint() {
+    let mut scene = Scene {
+        blocks: vec![cube(Vec3::ZERO, 0.4, Color::hex(0x808080))],
+        markers: vec![Marker::new(Vec3::new(0.0, 0.8, 0.0), Shape::Circle, 30.0, RED)],
+        ..Default::default()
+    };
+    let camera = level();
+    let middle = |scene: &Scene| shown(scene, &camera, &flat(Color::WHITE)).at(120, 90);
+    let faint = middle(&scene);
+    assert!(faint[0] > faint[2] + 15 && !near(faint, RED, 40), "{faint:?}");
+    scene.markers[0].through = 0.0;
+    let gone = middle(&scene);
+    assert!(gone[0].abs_diff(gone[2]) < 12, "{gone:?}");
+    scene.markers[0].lift = 2.0;
+    assert!(near(middle(&scene), RED, 3));
+}
+
+#[test]
+fn a_line_has_its_width_its_dashes_and_survives_the_near_plane() {
+    let camera = level();
+    let path = vec![Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0)];
+    let picture = |line| {
+        let scene = Scene { lines: vec![line], ..Default::default() };
+        shown(&scene, &camera, &flat(Color::WHITE))
+    };
+    let solid = picture(Line::new(path.clone(), 6.0, RED));
+    let darkness: f32 =
+        (0..SIZE[1]).map(|y| f32::from(255 - solid.at(120, y)[1]) / f32::from(255 - RED.to_bytes()[1])).sum();
+    assert!((darkness - 6.0).abs() < 0.6, "{darkness}");
+
+    let dashed = picture(Line::new(path, 6.0, RED).dashed(0.2, 0.5));
+    let row: Vec<bool> = (30..210).map(|x| near(dashed.at(x, 90), RED, 3)).collect();
+    let changes = row.windows(2).filter(|w| w[0] != w[1]).count();
+    assert!(changes >= 12, "{changes}");
+
+    // One end far behind the eye.
+    let through = picture(Line::new(vec![Vec3::new(0.0, 2.0, 0.0), Vec3::new(0.3, -40.0, 0.0)], 4.0, RED));
+    let colored = through.pixels.iter().filter(|p| near(**p, RED, 3)).count();
+    assert!(colored > 100 && colored < 3000, "{colored}");
+}
+
+#[test]
+fn bodies_throw_a_shadow_on_the_floor() {
+    let mut scene = Scene {
+        blocks: vec![cube(Vec3::new(0.0, 0.0, 0.2), 0.2, RED)],
+        ground: Some(Ground {
+            center: Vec3::ZERO,
+            radius: 4.0,
+            spacing: 0.0,
+            major: 1,
+            line: Color::CLEAR,
+            glow: Color::CLEAR,
+            shadow: 0.8,
+            contacts: vec![],
+        }),
+        ..Default::default()
+    };
+    let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 1.4);
+    let studio = flat(Color::WHITE);
+    // The light comes from the front right, so the shadow lies behind to the left.
+    let (in_shadow, in_light) = (Vec3::new(-0.29, 0.1, 0.0), Vec3::new(0.6, -0.2, 0.0));
+    let picture = shown(&scene, &camera, &studio);
+    assert!(at(&picture, &camera, in_shadow)[1] < 120);
+    assert!(at(&picture, &camera, in_light)[1] > 240);
+    scene.blocks[0].finish = Finish::Ghost;
+    let picture = shown(&scene, &camera, &studio);
+    assert!(at(&picture, &camera, in_shadow)[1] > 240);
+}
+
+#[test]
+fn a_clear_background_lets_through_what_is_under_the_view() {
+    let gpu = Gpu::new();
+    let mut renderer = Renderer::new(&gpu.device, FORMAT);
+    let below = wgpu::Color { r: 0.2, g: 0.4, b: 0.6, a: 1.0 };
+    let scene =
+        Scene { markers: vec![Marker::new(Vec3::ZERO, Shape::Circle, 40.0, RED.alpha(0.5))], ..Default::default() };
+    let picture = render(&gpu, &mut renderer, (&scene, 0), &level(), &flat(Color::CLEAR), (SIZE, 1.0), below);
+    let under = Color::rgba(0.2, 0.4, 0.6, 1.0);
+    assert!(near(picture.at(3, 3), under, 1));
+    assert!(near(picture.at(120, 90), under.mix(RED, 0.5), 2));
+}
+
+#[test]
+fn any_size_is_drawn_and_nothing_is_drawn_twice() {
+    let gpu = Gpu::new();
+    let Gpu { device, queue } = &gpu;
+    let mut renderer = Renderer::new(device, FORMAT);
+    let scene = demo::scene(&Palette::LIGHT, 1.0);
+    let camera = Camera::default();
+    let mut drawn = |size_px, scene_version, pixels_per_point| {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let frame = Frame {
+            view: ViewId(7),
+            size_px,
+            pixels_per_point,
+            scene: &scene,
+            scene_version,
+            camera: &camera,
+            studio: &Studio::DARK,
+        };
+        let drew = renderer.prepare(device, queue, &mut encoder, &frame);
+        queue.submit([encoder.finish()]);
+        drew
+    };
+    assert!(drawn([0, 0], 0, f32::NAN));
+    assert!(drawn([u32::MAX, 3], 0, 1.0));
+    assert!(drawn([64, 64], 0, 1e9));
+    assert!(drawn([64, 64], 0, 2.0));
+    assert!(!drawn([64, 64], 0, 2.0));
+    assert!(drawn([64, 64], 1, 2.0));
+    renderer.forget(ViewId(7));
+    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+}
+
+#[test]
+fn two_views_do_not_disturb_each_other() {
+    let gpu = Gpu::new();
+    let Gpu { device, queue } = &gpu;
+    let mut renderer = Renderer::new(device, FORMAT);
+    let one = Scene { blocks: vec![cube(Vec3::ZERO, 0.5, RED)], ..Default::default() };
+    let other = Scene::default();
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let frame = Frame {
+        view: ViewId(1),
+        size_px: [90, 40],
+        pixels_per_point: 1.0,
+        scene: &other,
+        scene_version: 1,
+        camera: &level(),
+        studio: &flat(BLUE),
+    };
+    renderer.prepare(device, queue, &mut encoder, &frame);
+    queue.submit([encoder.finish()]);
+    let picture =
+        render(&gpu, &mut renderer, (&one, 1), &level(), &flat(Color::WHITE), (SIZE, 1.0), wgpu::Color::BLACK);
+    let [r, _, b, _] = picture.at(120, 90);
+    assert!(r > 2 * b);
+    assert!(near(picture.at(2, 2), Color::WHITE, 1));
+}

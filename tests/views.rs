@@ -1,0 +1,263 @@
+//! The live plots and the bending plane, headless: what a pointer or a keyboard does, and what they look like.
+
+use centrode::app::command::Command;
+use centrode::app::plane::plane;
+use centrode::app::plots::{PlotState, plots};
+use centrode::experiment::scenario::Threshold;
+use centrode::experiment::{Run, Scenario, preset, simulate};
+use egui::{Key, Pos2, Rect, Role, Vec2, pos2, vec2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable;
+
+/// Both views over one scenario, with commands applied as the app applies them.
+struct Page {
+    scenario: Scenario,
+    run: Run,
+    cursor: f64,
+    state: PlotState,
+    log: Vec<Command>,
+}
+
+impl Page {
+    fn new(name: &str, cursor: f64) -> Self {
+        let scenario = preset::find(name).and_then(preset::Preset::scenario).expect("preset");
+        let run = simulate(&scenario).expect("run");
+        Self { scenario, run, cursor, state: PlotState::default(), log: Vec::new() }
+    }
+
+    fn apply(&mut self, commands: Vec<Command>) {
+        for command in commands {
+            match command {
+                Command::Seek(time) => self.cursor = time,
+                Command::SetXi1(threshold) => self.scenario.detection.xi1 = threshold,
+                Command::SetXi2(threshold) => self.scenario.detection.xi2 = threshold,
+                Command::SetArmedFrom(time) => self.scenario.detection.armed_from = time,
+                #[allow(unreachable_patterns)]
+                _ => {}
+            }
+            self.run = simulate(&self.scenario).expect("what the views ask for can be run");
+            self.log.push(command);
+        }
+    }
+
+    fn show(&mut self, ui: &mut egui::Ui) {
+        let mut out = Vec::new();
+        let wide = ui.available_width() > 700.0;
+        if wide {
+            let width = 0.4 * ui.available_width();
+            let height = ui.available_height();
+            ui.horizontal(|ui| {
+                ui.allocate_ui(vec2(width, height), |ui| plane(ui, &self.run, self.cursor, &mut out));
+                ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
+                    plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
+                });
+            });
+        } else {
+            let width = ui.available_width();
+            ui.allocate_ui(vec2(width, 380.0), |ui| plane(ui, &self.run, self.cursor, &mut out));
+            plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
+        }
+        self.apply(out);
+    }
+}
+
+fn harness<'a>(page: Page, size: Vec2, theme: egui::Theme) -> Harness<'a, Page> {
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .with_theme(theme)
+        .with_pixels_per_point(2.0)
+        .wgpu()
+        .build_ui_state(|ui, page: &mut Page| page.show(ui), page);
+    harness.run();
+    harness
+}
+
+fn wide() -> Harness<'static, Page> {
+    harness(Page::new("paper", 4.0), vec2(1200.0, 560.0), egui::Theme::Dark)
+}
+
+fn plot(harness: &Harness<'_, Page>, what: &str) -> Rect {
+    harness.get_by_label(&format!("Plot of the {what} over time")).rect()
+}
+
+/// A point of a plot: time in s, and share of the height from the bottom.
+fn point(plot: Rect, time: f64, share: f32) -> Pos2 {
+    pos2(plot.left() + plot.width() * time as f32 / 10.0, plot.bottom() - plot.height() * share)
+}
+
+fn drag(harness: &mut Harness<'_, Page>, from: Pos2, to: Pos2) {
+    harness.hover_at(from);
+    harness.run();
+    harness.drag_at(from);
+    harness.run();
+    for k in 1..=4 {
+        harness.hover_at(from + (to - from) * (k as f32 / 4.0));
+        harness.run();
+    }
+    harness.drop_at(to);
+    harness.run();
+}
+
+#[test]
+fn dragging_a_threshold_sets_it_live_and_keeps_the_scale() {
+    let mut harness = wide();
+    let plot = plot(&harness, "centrode deviation");
+    // 7 mm on a plot that reaches 12 mm.
+    let from = point(plot, 7.0, 7.0 / 12.0);
+    drag(&mut harness, from, point(plot, 7.0, 5.0 / 12.0));
+    let page = harness.state();
+    let set: Vec<f64> = page
+        .log
+        .iter()
+        .map(|command| match command {
+            Command::SetXi2(threshold) => threshold.value().expect("on"),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert!(set.len() >= 3, "live: {set:?}");
+    assert!(set.windows(2).all(|pair| pair[1] < pair[0]), "{set:?}");
+    let last = set.last().expect("set");
+    assert!((last - 0.005).abs() < 0.0002, "{last}");
+    assert!(page.run.detection.expect("detected").time < 6.279);
+}
+
+#[test]
+fn dragging_the_force_threshold_sets_xi1() {
+    let mut harness = wide();
+    let plot = plot(&harness, "joint force deviation");
+    let label = harness.get_by_label("ξ1 on plot").rect();
+    let from = pos2(point(plot, 4.0, 0.0).x, label.center().y);
+    drag(&mut harness, from, from - vec2(0.0, 20.0));
+    let raised = harness.state().log.iter().all(|c| matches!(c, Command::SetXi1(Threshold::On(x)) if *x > 0.03));
+    assert!(raised && !harness.state().log.is_empty(), "{:?}", harness.state().log);
+}
+
+#[test]
+fn a_threshold_can_be_typed() {
+    let mut harness = wide();
+    harness.get_by_label("ξ2 on plot").click();
+    harness.run();
+    harness.get_by_role_and_label(Role::TextInput, "ξ2 on plot").type_text("3.5");
+    harness.run();
+    harness.key_press(Key::Enter);
+    harness.run();
+    match harness.state().log.last() {
+        Some(Command::SetXi2(Threshold::On(value))) => assert!((value - 0.0035).abs() < 1e-12, "{value}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_threshold_can_be_switched_off_and_on_again() {
+    let mut harness = wide();
+    harness.get_by_label("ξ2 on plot, on or off").click();
+    harness.run();
+    assert_eq!(harness.state().log, [Command::SetXi2(Threshold::OFF)]);
+    assert!(harness.state().run.detection.is_none());
+    harness.get_by_label("ξ2 on plot, on or off").click();
+    harness.run();
+    assert_eq!(harness.state().log.last(), Some(&Command::SetXi2(Threshold::On(0.007))));
+}
+
+#[test]
+fn clicking_and_dragging_elsewhere_seeks() {
+    let mut harness = wide();
+    let plot = plot(&harness, "centrode deviation");
+    let at = point(plot, 7.5, 0.2);
+    harness.hover_at(at);
+    harness.drag_at(at);
+    harness.drop_at(at);
+    harness.run();
+    assert!((harness.state().cursor - 7.5).abs() < 0.05, "{:?}", harness.state().log);
+    drag(&mut harness, point(plot, 6.0, 0.2), point(plot, 8.5, 0.25));
+    assert!((harness.state().cursor - 8.5).abs() < 0.05);
+    assert!(harness.state().log.iter().all(|command| matches!(command, Command::Seek(_))));
+}
+
+#[test]
+fn the_arming_edge_can_be_dragged() {
+    let mut harness = wide();
+    let plot = plot(&harness, "centrode deviation");
+    drag(&mut harness, point(plot, 5.0, 0.3), point(plot, 4.0, 0.3));
+    assert!((harness.state().scenario.detection.armed_from - 4.0).abs() < 0.05, "{:?}", harness.state().log);
+    assert!(harness.state().log.iter().all(|command| matches!(command, Command::SetArmedFrom(_))));
+}
+
+#[test]
+fn clicking_a_mark_of_the_plane_seeks_there() {
+    let mut harness = wide();
+    let view = harness.get_by_label_contains("Bending plane at").rect();
+    let before = harness.state().cursor;
+    // Sweeps the view: some marks are met, and each gives its own time.
+    let mut times = Vec::new();
+    for row in 0..24 {
+        for column in 0..24 {
+            let at = view.min + vec2(column as f32 + 0.5, row as f32 + 0.5) / 24.0 * view.size();
+            harness.hover_at(at);
+            harness.drag_at(at);
+            harness.drop_at(at);
+            harness.step();
+            harness.step();
+        }
+    }
+    times.extend(harness.state().log.iter().map(|command| match command {
+        Command::Seek(time) => *time,
+        other => panic!("{other:?}"),
+    }));
+    assert!(!times.is_empty() && harness.state().cursor != before);
+    assert!(times.iter().all(|time| (3.0..=8.0).contains(time)), "{times:?}");
+}
+
+/// Writes pictures to the folder that CENTRODE_PICTURES names; without it, only checks that both views draw.
+#[test]
+fn both_views_draw_in_every_size_and_theme() {
+    let folder = std::env::var_os("CENTRODE_PICTURES").map(std::path::PathBuf::from);
+    let cases = [
+        ("bench", 6.9, vec2(1280.0, 600.0), egui::Theme::Dark),
+        ("bench", 6.9, vec2(1280.0, 600.0), egui::Theme::Light),
+        ("bench", 6.9, vec2(390.0, 860.0), egui::Theme::Dark),
+        ("disk-1", 7.4, vec2(390.0, 860.0), egui::Theme::Light),
+        ("out-and-in", 5.2, vec2(1280.0, 600.0), egui::Theme::Light),
+        ("static-resolution", 6.0, vec2(1280.0, 600.0), egui::Theme::Dark),
+        ("free", 2.0, vec2(1280.0, 600.0), egui::Theme::Dark),
+    ];
+    for (k, (name, cursor, size, theme)) in cases.into_iter().enumerate() {
+        let mut harness = harness(Page::new(name, cursor), size, theme);
+        let image = harness.render().expect("picture");
+        let first = *image.get_pixel(1, 1);
+        let drawn = image.pixels().filter(|pixel| **pixel != first).count();
+        assert!(drawn > 20_000, "{name}: {drawn} pixels drawn");
+        if let Some(folder) = &folder {
+            let theme = if theme == egui::Theme::Dark { "dark" } else { "light" };
+            let file = folder.join(format!("{k}-{name}-{theme}-{}.png", size.x));
+            image.save(file).expect("written");
+        }
+    }
+}
+
+/// The row of plots under a 3D view, with the pointer on a crossing.
+#[test]
+fn the_plots_fit_in_a_low_row() {
+    let page = Page::new("bench", 6.9);
+    let mut harness = Harness::builder()
+        .with_size(vec2(1180.0, 210.0))
+        .with_theme(egui::Theme::Dark)
+        .wgpu()
+        .build_ui_state(
+            |ui, page: &mut Page| {
+                let mut out = Vec::new();
+                plots(ui, &page.run, page.cursor, &mut page.state, &mut out);
+                page.apply(out);
+            },
+            page,
+        );
+    harness.run();
+    let rects = ["centrode deviation", "joint force deviation", "tangent angle"].map(|what| plot(&harness, what));
+    assert!(rects.windows(2).all(|pair| pair[0].right() < pair[1].left() && pair[0].top() == pair[1].top()));
+    harness.hover_at(point(rects[1], 6.6, 0.1));
+    harness.run();
+    let image = harness.render().expect("picture");
+    if let Some(folder) = std::env::var_os("CENTRODE_PICTURES").map(std::path::PathBuf::from) {
+        image.save(folder.join("row.png")).expect("written");
+    }
+}
