@@ -95,8 +95,7 @@ impl Control {
         if let Some(shown) = self.words.and_then(|words| (words.show)(scenario)) {
             return shown;
         }
-        self.value(scenario)
-            .map_or(("off".into(), ""), |value| (number(value, self.decimals), self.quantity.unit()))
+        self.value(scenario).map_or(("off".into(), ""), |value| (number(value, self.decimals), self.quantity.unit()))
     }
 
     /// Sets it from the unit shown.

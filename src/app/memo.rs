@@ -14,7 +14,9 @@ pub enum Refusal {
     #[error(transparent)]
     Impossible(#[from] ScenarioError),
     /// It is too long for a page.
-    #[error("motion.end = {end} s at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}")]
+    #[error(
+        "motion.end = {end} s at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}"
+    )]
     TooLong {
         /// `motion.end`, s.
         end: f64,

@@ -191,7 +191,8 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused_in_words() {
-        for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)] {
+        for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)]
+        {
             let message = Quantity::Length.parse(text).expect_err(text);
             assert!(message.contains('“') && message.chars().count() < 80, "{message}");
         }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::table;
 use super::theme::ThemeChoice;
-use crate::experiment::preset::{self, PRESETS, Preset};
 use crate::experiment::Scenario;
+use crate::experiment::preset::{self, PRESETS, Preset};
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
 const LEAD_IN: f64 = 0.4;

@@ -76,7 +76,9 @@ fn seconds(duration: f64) -> String {
 fn centrode(run: &Run) -> String {
     let xi2 = run.plan.scenario().detection.xi2.value();
     match (contact_time(run), run.detection) {
-        (None, None) if run.plan.contact().is_some() => "The motion never reaches the beam, and nothing was noticed.".into(),
+        (None, None) if run.plan.contact().is_some() => {
+            "The motion never reaches the beam, and nothing was noticed.".into()
+        }
         (None, None) => "Nothing touches the robot, and nothing was noticed.".into(),
         (None, Some(alarm)) => format!("False alarm at {} s: nothing touches the robot.", fixed(alarm.time, 3)),
         (Some(contact), None) => {
@@ -165,14 +167,22 @@ pub fn figures(run: &Run) -> Vec<Figure> {
     let error = estimate - truth;
     let signed = |value: f64, decimals| {
         let text = fixed(value, decimals);
-        if value > 0.0 && text.contains(['1', '2', '3', '4', '5', '6', '7', '8', '9']) { format!("+{text}") } else { text }
+        if value > 0.0 && text.contains(['1', '2', '3', '4', '5', '6', '7', '8', '9']) {
+            format!("+{text}")
+        } else {
+            text
+        }
     };
     let figure = |name, value, unit| Figure { name, value, unit };
     vec![
         figure("Contact", fixed(contact, 3), "s"),
         figure("Detected", fixed(detected, 3), "s"),
         figure("Delay", signed(delay, 3), "s"),
-        figure("θL at detection", fixed(detection.map_or(f64::NAN, |detection| detection.theta_l.to_degrees()), 1), "°"),
+        figure(
+            "θL at detection",
+            fixed(detection.map_or(f64::NAN, |detection| detection.theta_l.to_degrees()), 1),
+            "°",
+        ),
         figure("Estimate", fixed(estimate, 1), "mm"),
         figure("Truth", fixed(truth, 1), "mm"),
         figure("Error", signed(error, 1), "mm"),
@@ -202,14 +212,22 @@ mod tests {
     #[test]
     fn every_outcome_has_its_words() {
         for (name, change, part) in [
-            ("free", (|s| s.detection.min_speed = 1.0) as fn(&mut Scenario), "Nothing touches the robot, and nothing was noticed."),
+            (
+                "free",
+                (|s| s.detection.min_speed = 1.0) as fn(&mut Scenario),
+                "Nothing touches the robot, and nothing was noticed.",
+            ),
             ("static-resolution", |_| {}, "False alarm at "),
             ("paper", |s| s.detection.xi2 = Threshold::OFF, "was not looked for: ξ2 is off."),
             ("paper", |s| s.detection.xi2 = Threshold::On(1.0), "was not noticed; ξ2 is 1000.0 mm."),
             ("paper", |s| s.detection.xi1 = Threshold::OFF, "ξ1 is off."),
             ("static-resolution", |s| s.contact = Scenario::default().contact, " before the contact on disk 2."),
             ("mid-gap", |_| {}, "Contact at 18.0 mm at "),
-            ("paper", |s| s.contact.start = crate::experiment::scenario::Start::Time(9.0), "The motion never reaches the beam"),
+            (
+                "paper",
+                |s| s.contact.start = crate::experiment::scenario::Start::Time(9.0),
+                "The motion never reaches the beam",
+            ),
             ("out-and-in", |_| {}, "from the start"),
         ] {
             let said = words(&run(name, change));

@@ -25,7 +25,16 @@ macro_rules! field {
 
 type Range = fn(&Scenario) -> (f64, f64);
 
-const fn row(key: &'static str, label: &'static str, quantity: Quantity, decimals: usize, scale: Scale, range: Range, field: Field, tip: &'static str) -> Control {
+const fn row(
+    key: &'static str,
+    label: &'static str,
+    quantity: Quantity,
+    decimals: usize,
+    scale: Scale,
+    range: Range,
+    field: Field,
+    tip: &'static str,
+) -> Control {
     let Field(get, set, copy) = field;
     Control { key, label, quantity, decimals, scale, range, tip, get, set, copy, off: None, words: None }
 }
@@ -42,83 +51,289 @@ const RUN: Range = |s| (0.0, s.motion.end);
 
 const CONTACT: &[Control] = &[
     with_words(
-        row("contact.disk", "Contact disk", Count, 0, Stops, |s| (0.0, s.robot.disks.len() as f64),
+        row(
+            "contact.disk",
+            "Contact disk",
+            Count,
+            0,
+            Stops,
+            |s| (0.0, s.robot.disks.len() as f64),
             Field(|s| Some(span::disk(s)), set_disk, |from, to| to.contact.place = from.contact.place),
-            "Where the beam meets the backbone: at a disk, or type an arc length such as 18 mm."),
-        Words { show: show_place, enter: enter_place }),
+            "Where the beam meets the backbone: at a disk, or type an arc length such as 18 mm.",
+        ),
+        Words { show: show_place, enter: enter_place },
+    ),
     with_words(
-        row("contact.time", "Contact time", Time, 2, Linear(0.01), RUN,
-            Field(|s| Some(span::contact_start(s)), |s, v| s.contact.start = Start::Time(v), |from, to| to.contact.start = from.contact.start),
-            "When the backbone reaches the beam. A bend can be typed instead, such as 56°."),
-        Words { show: show_start, enter: enter_start }),
-    row("motion.delta", "Bending direction δ", Angle, 0, Linear(1.0), |_| (-180.0, 180.0), field!(motion.delta),
-        "Turns the bending plane about the straight backbone."),
+        row(
+            "contact.time",
+            "Contact time",
+            Time,
+            2,
+            Linear(0.01),
+            RUN,
+            Field(
+                |s| Some(span::contact_start(s)),
+                |s, v| s.contact.start = Start::Time(v),
+                |from, to| to.contact.start = from.contact.start,
+            ),
+            "When the backbone reaches the beam. A bend can be typed instead, such as 56°.",
+        ),
+        Words { show: show_start, enter: enter_start },
+    ),
+    row(
+        "motion.delta",
+        "Bending direction δ",
+        Angle,
+        0,
+        Linear(1.0),
+        |_| (-180.0, 180.0),
+        field!(motion.delta),
+        "Turns the bending plane about the straight backbone.",
+    ),
 ];
 
 const SENSORS: &[Control] = &[
-    row("load_cells.epsilon_tau", "Load cell error ε_τ", Ratio, 1, Linear(0.5), |_| (0.0, 50.0), field!(load_cells.epsilon_tau),
-        "Relative error common to the three load cells; it sets the bound ε_c."),
-    row("tracker.position_noise", "Position noise", Length, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.position_noise),
-        "Standard deviation of the tracker's white noise on each coordinate."),
-    row("tracker.orientation_noise", "Orientation noise", Angle, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.orientation_noise),
-        "Standard deviation of the tracker's white noise on each angle."),
-    row("seed", "Seed", Count, 0, Whole, |_| (0.0, 99.0), field!(whole seed),
-        "Another number, another course of the noise; the same number, the same run."),
+    row(
+        "load_cells.epsilon_tau",
+        "Load cell error ε_τ",
+        Ratio,
+        1,
+        Linear(0.5),
+        |_| (0.0, 50.0),
+        field!(load_cells.epsilon_tau),
+        "Relative error common to the three load cells; it sets the bound ε_c.",
+    ),
+    row(
+        "tracker.position_noise",
+        "Position noise",
+        Length,
+        3,
+        Log(0.001),
+        |_| (0.0, 1.0),
+        field!(tracker.position_noise),
+        "Standard deviation of the tracker's white noise on each coordinate.",
+    ),
+    row(
+        "tracker.orientation_noise",
+        "Orientation noise",
+        Angle,
+        3,
+        Log(0.001),
+        |_| (0.0, 1.0),
+        field!(tracker.orientation_noise),
+        "Standard deviation of the tracker's white noise on each angle.",
+    ),
+    row(
+        "seed",
+        "Seed",
+        Count,
+        0,
+        Whole,
+        |_| (0.0, 99.0),
+        field!(whole seed),
+        "Another number, another course of the noise; the same number, the same run.",
+    ),
 ];
 
 const FILTER: &[Control] = &[row(
-    "filter.length", "Filter length N", Count, 0, LogWhole, |_| (1.0, 2000.0), field!(whole filter.length),
-    "Readings in the moving average: longer is calmer and later. 1 does not filter.")];
+    "filter.length",
+    "Filter length N",
+    Count,
+    0,
+    LogWhole,
+    |_| (1.0, 2000.0),
+    field!(whole filter.length),
+    "Readings in the moving average: longer is calmer and later. 1 does not filter.",
+)];
 
 const THRESHOLDS: &[Control] = &[
     with_off(
-        row("detection.xi2", "ξ2 (centrode)", Length, 1, Linear(0.1), |_| (0.0, 20.0), field!(threshold detection.xi2),
-            "Alarm when the sensor's centrode is farther than this from the model's."),
-        |s| s.detection.xi2 = Threshold::OFF),
+        row(
+            "detection.xi2",
+            "ξ2 (centrode)",
+            Length,
+            1,
+            Linear(0.1),
+            |_| (0.0, 20.0),
+            field!(threshold detection.xi2),
+            "Alarm when the sensor's centrode is farther than this from the model's.",
+        ),
+        |s| s.detection.xi2 = Threshold::OFF,
+    ),
     with_off(
-        row("detection.xi1", "ξ1 (joint force)", Moment, 3, Linear(0.001), |_| (0.0, 0.1), field!(threshold detection.xi1),
-            "Alarm when the joint force deviation Θ exceeds this."),
-        |s| s.detection.xi1 = Threshold::OFF),
-    row("detection.armed_from", "Armed from", Time, 2, Linear(0.05), RUN, field!(detection.armed_from),
-        "No alarm is raised before this time."),
+        row(
+            "detection.xi1",
+            "ξ1 (joint force)",
+            Moment,
+            3,
+            Linear(0.001),
+            |_| (0.0, 0.1),
+            field!(threshold detection.xi1),
+            "Alarm when the joint force deviation Θ exceeds this.",
+        ),
+        |s| s.detection.xi1 = Threshold::OFF,
+    ),
+    row(
+        "detection.armed_from",
+        "Armed from",
+        Time,
+        2,
+        Linear(0.05),
+        RUN,
+        field!(detection.armed_from),
+        "No alarm is raised before this time.",
+    ),
 ];
 
 const MOTION: &[Control] = &[
-    row("motion.theta_start", "θL at the start", Angle, 1, Linear(1.0), |_| (-90.0, 180.0), field!(motion.theta_start),
-        "Tangent angle of the tip before the motion; 90° is straight."),
-    row("motion.theta_end", "θL at the end", Angle, 1, Linear(1.0), |_| (-90.0, 180.0), field!(motion.theta_end),
-        "Tangent angle of the tip after the motion."),
+    row(
+        "motion.theta_start",
+        "θL at the start",
+        Angle,
+        1,
+        Linear(1.0),
+        |_| (-90.0, 180.0),
+        field!(motion.theta_start),
+        "Tangent angle of the tip before the motion; 90° is straight.",
+    ),
+    row(
+        "motion.theta_end",
+        "θL at the end",
+        Angle,
+        1,
+        Linear(1.0),
+        |_| (-90.0, 180.0),
+        field!(motion.theta_end),
+        "Tangent angle of the tip after the motion.",
+    ),
     row("motion.start", "Motion starts", Time, 2, Linear(0.05), RUN, field!(motion.start), "The robot rests before."),
     row("motion.finish", "Motion is done", Time, 2, Linear(0.05), RUN, field!(motion.finish), "The robot rests after."),
-    row("motion.end", "Run ends", Time, 2, Linear(0.1), |_| (1.0, 20.0), field!(motion.end), "How long the experiment lasts."),
+    row(
+        "motion.end",
+        "Run ends",
+        Time,
+        2,
+        Linear(0.1),
+        |_| (1.0, 20.0),
+        field!(motion.end),
+        "How long the experiment lasts.",
+    ),
 ];
 
 const ROBOT: &[Control] = &[
-    row("robot.length", "Length L", Length, 1, Linear(0.5), |_| (10.0, 100.0), field!(robot.length),
-        "Primary backbone, base disk to end disk."),
-    row("robot.pitch_radius", "Pitch radius r", Length, 2, Linear(0.05), |_| (0.5, 8.0), field!(robot.pitch_radius),
-        "Circle on which the three secondary backbones stand."),
-    row("robot.primary.youngs_modulus", "Stiffness of the primary", Modulus, 1, Linear(0.5), |_| (1.0, 120.0), field!(robot.primary.youngs_modulus),
-        "Young's modulus of the central tube."),
-    row("robot.secondary.youngs_modulus", "Stiffness of the others", Modulus, 1, Linear(0.5), |_| (1.0, 120.0), field!(robot.secondary.youngs_modulus),
-        "Young's modulus of each of the three outer tubes."),
+    row(
+        "robot.length",
+        "Length L",
+        Length,
+        1,
+        Linear(0.5),
+        |_| (10.0, 100.0),
+        field!(robot.length),
+        "Primary backbone, base disk to end disk.",
+    ),
+    row(
+        "robot.pitch_radius",
+        "Pitch radius r",
+        Length,
+        2,
+        Linear(0.05),
+        |_| (0.5, 8.0),
+        field!(robot.pitch_radius),
+        "Circle on which the three secondary backbones stand.",
+    ),
+    row(
+        "robot.primary.youngs_modulus",
+        "Stiffness of the primary",
+        Modulus,
+        1,
+        Linear(0.5),
+        |_| (1.0, 120.0),
+        field!(robot.primary.youngs_modulus),
+        "Young's modulus of the central tube.",
+    ),
+    row(
+        "robot.secondary.youngs_modulus",
+        "Stiffness of the others",
+        Modulus,
+        1,
+        Linear(0.5),
+        |_| (1.0, 120.0),
+        field!(robot.secondary.youngs_modulus),
+        "Young's modulus of each of the three outer tubes.",
+    ),
 ];
 
 const DEVICES: &[Control] = &[
-    row("tracker.rate", "Tracker rate", Frequency, 0, Linear(5.0), |_| (10.0, 500.0), field!(tracker.rate),
-        "How often the tracker has a new reading; the loop holds the last one."),
-    row("tracker.latency", "Tracker latency", Time, 3, Linear(0.005), |_| (0.0, 0.2), field!(tracker.latency),
-        "Age of a reading when it arrives."),
-    row("tracker.position_resolution", "Position resolution", Length, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.position_resolution),
-        "Coordinates are rounded to multiples of this; 0 does not round."),
-    row("tracker.orientation_resolution", "Orientation resolution", Angle, 3, Log(0.001), |_| (0.0, 1.0), field!(tracker.orientation_resolution),
-        "Angles are rounded to multiples of this; 0 does not round."),
-    row("load_cells.noise", "Load cell noise", Force, 3, Log(0.001), |_| (0.0, 5.0), field!(load_cells.noise),
-        "Standard deviation of white noise on each load cell."),
-    row("load_cells.preload", "Preload", Force, 1, Linear(0.5), |_| (0.0, 50.0), field!(load_cells.preload),
-        "Force added to all three secondary backbones alike."),
-    row("detection.min_speed", "Speed floor", AngularSpeed, 2, Linear(0.05), |_| (0.0, 10.0), field!(detection.min_speed),
-        "Centrodes are judged only while the end disk turns faster."),
+    row(
+        "tracker.rate",
+        "Tracker rate",
+        Frequency,
+        0,
+        Linear(5.0),
+        |_| (10.0, 500.0),
+        field!(tracker.rate),
+        "How often the tracker has a new reading; the loop holds the last one.",
+    ),
+    row(
+        "tracker.latency",
+        "Tracker latency",
+        Time,
+        3,
+        Linear(0.005),
+        |_| (0.0, 0.2),
+        field!(tracker.latency),
+        "Age of a reading when it arrives.",
+    ),
+    row(
+        "tracker.position_resolution",
+        "Position resolution",
+        Length,
+        3,
+        Log(0.001),
+        |_| (0.0, 1.0),
+        field!(tracker.position_resolution),
+        "Coordinates are rounded to multiples of this; 0 does not round.",
+    ),
+    row(
+        "tracker.orientation_resolution",
+        "Orientation resolution",
+        Angle,
+        3,
+        Log(0.001),
+        |_| (0.0, 1.0),
+        field!(tracker.orientation_resolution),
+        "Angles are rounded to multiples of this; 0 does not round.",
+    ),
+    row(
+        "load_cells.noise",
+        "Load cell noise",
+        Force,
+        3,
+        Log(0.001),
+        |_| (0.0, 5.0),
+        field!(load_cells.noise),
+        "Standard deviation of white noise on each load cell.",
+    ),
+    row(
+        "load_cells.preload",
+        "Preload",
+        Force,
+        1,
+        Linear(0.5),
+        |_| (0.0, 50.0),
+        field!(load_cells.preload),
+        "Force added to all three secondary backbones alike.",
+    ),
+    row(
+        "detection.min_speed",
+        "Speed floor",
+        AngularSpeed,
+        2,
+        Linear(0.05),
+        |_| (0.0, 10.0),
+        field!(detection.min_speed),
+        "Centrodes are judged only while the end disk turns faster.",
+    ),
 ];
 
 const DEVICE_CHOICES: &[Choice] = &[
@@ -168,7 +383,8 @@ fn show_place(scenario: &Scenario) -> Option<(String, &'static str)> {
 
 fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
     let text = text.trim();
-    let refused = || Err(format!("“{}” is no place: type none, a disk's number, or an arc length such as 18 mm", shorten(text)));
+    let refused =
+        || Err(format!("“{}” is no place: type none, a disk's number, or an arc length such as 18 mm", shorten(text)));
     if matches!(text.to_lowercase().as_str(), "none" | "no" | "off" | "free") {
         scenario.contact.place = Place::Nowhere;
         return Some(Ok(()));
@@ -230,7 +446,10 @@ mod tests {
     #[test]
     fn the_key_is_a_key_of_the_scenario() {
         let toml = Scenario::default().to_toml();
-        for key in GROUPS.iter().flat_map(|group| group.controls.iter().map(|c| c.key).chain(group.choices.iter().map(|c| c.key))) {
+        for key in GROUPS
+            .iter()
+            .flat_map(|group| group.controls.iter().map(|c| c.key).chain(group.choices.iter().map(|c| c.key)))
+        {
             let name = key.rsplit('.').next().expect("name");
             assert!(toml.lines().any(|line| line.starts_with(&format!("{name} ="))), "{key}");
         }
@@ -265,7 +484,9 @@ mod tests {
     fn starts_can_be_typed() {
         let start = control("contact.time");
         let mut scenario = Scenario::default();
-        for (text, shown) in [("5.5", "5.50 s"), ("5600 ms", "5.60 s"), ("45°", "45.0 °"), ("30", "30.0 °"), ("5.8 s", "5.80 s")] {
+        for (text, shown) in
+            [("5.5", "5.50 s"), ("5600 ms", "5.60 s"), ("45°", "45.0 °"), ("30", "30.0 °"), ("5.8 s", "5.80 s")]
+        {
             start.enter(&mut scenario, text).expect(text);
             let (number, unit) = start.text(&scenario);
             assert_eq!(format!("{number} {unit}"), shown);

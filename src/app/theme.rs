@@ -159,7 +159,12 @@ impl Theme {
         visuals.window_stroke = Stroke::new(1.0, self.faint);
         visuals.window_corner_radius = CornerRadius::same(ROUND);
         visuals.menu_corner_radius = CornerRadius::same(8);
-        let shadow = Shadow { offset: [0, 6], blur: 24, spread: 0, color: Color32::from_black_alpha(if self.dark { 120 } else { 40 }) };
+        let shadow = Shadow {
+            offset: [0, 6],
+            blur: 24,
+            spread: 0,
+            color: Color32::from_black_alpha(if self.dark { 120 } else { 40 }),
+        };
         visuals.window_shadow = shadow;
         visuals.popup_shadow = shadow;
         visuals.striped = false;

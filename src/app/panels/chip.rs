@@ -39,7 +39,12 @@ impl Chip {
         if phase == Phase::Detected && !still && age < 1.0 {
             let fade = (1.0 - age).powi(2);
             let ring = rect.expand(14.0 * (1.0 - (1.0 - age).powi(3)));
-            ui.painter().rect_stroke(ring, ring.height() / 2.0, Stroke::new(3.0, color.gamma_multiply(fade)), egui::StrokeKind::Middle);
+            ui.painter().rect_stroke(
+                ring,
+                ring.height() / 2.0,
+                Stroke::new(3.0, color.gamma_multiply(fade)),
+                egui::StrokeKind::Middle,
+            );
             ui.ctx().request_repaint();
         }
         let filled = phase == Phase::Detected;
@@ -58,7 +63,8 @@ impl Chip {
             Phase::Free => ui.painter().circle_stroke(dot, 4.5, Stroke::new(2.0, color)),
             Phase::Contact => ui.painter().circle_filled(dot, 5.0, color),
             Phase::Detected => {
-                let diamond = [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|v| dot + v).to_vec();
+                let diamond =
+                    [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|v| dot + v).to_vec();
                 ui.painter().add(egui::Shape::convex_polygon(diamond, ink, Stroke::NONE))
             }
         };

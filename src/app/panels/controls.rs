@@ -7,11 +7,11 @@ use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, UiBui
 use super::row::{self, Context};
 use crate::app::command::Command;
 use crate::app::control::Group;
-use crate::app::{fonts, layout};
 use crate::app::state::State;
 use crate::app::table::GROUPS;
 use crate::app::theme::Theme;
 use crate::app::widgets::{icon, text};
+use crate::app::{fonts, layout};
 use crate::experiment::Scenario;
 
 /// What the panel needs to know.
@@ -78,9 +78,9 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
 fn reset_all(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let changed = inputs.state.scenario != *inputs.base;
     let label = egui::RichText::new("Reset all").font(if changed { fonts::strong(13.0) } else { fonts::regular(13.0) });
-    let button = egui::Button::new(label).min_size(vec2(ui.available_width(), 32.0));
+    let button = egui::Button::new(label);
     let tip = format!("Restore the scenario of the preset “{}”", super::title::name(inputs.state.preset()));
-    if ui.add(button).on_hover_text(tip).clicked() {
+    if ui.centered_and_justified(|ui| ui.add(button)).inner.on_hover_text(tip).clicked() {
         out.push(Command::ResetAll);
     }
 }

@@ -4,15 +4,14 @@ use egui::{Align2, Rect, Sense, Ui, vec2};
 
 use crate::app::command::Command;
 use crate::app::control::{Choice, Control};
-use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::field::{Field, field};
 use crate::app::widgets::icon::{self, Icon};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::slider::{Slider, slider};
-use crate::app::widgets::toggle::toggle;
 use crate::app::widgets::text;
+use crate::app::widgets::toggle::toggle;
 use crate::experiment::Scenario;
 
 const LINE: f32 = 24.0;
@@ -35,13 +34,15 @@ pub struct Context<'a> {
 fn heading(ui: &mut Ui, rect: Rect, label: &str, tip: &str, differs: bool) -> bool {
     let theme = Theme::of(ui);
     let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
-    let drawn = text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, label, fonts::regular(13.0), ink);
+    let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
     ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", label)), Sense::hover()).on_hover_text(tip);
     if !differs {
         return false;
     }
     let place = Rect::from_center_size(drawn.right_center() + vec2(15.0, 0.0), vec2(22.0, 22.0));
-    ui.push_id(label, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain)).inner.clicked()
+    ui.push_id(label, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
+        .inner
+        .clicked()
 }
 
 /// Shows a number's row.
@@ -71,14 +72,18 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
 
     let track = Rect::from_min_size(line.left_bottom(), vec2(width, RAIL));
     let spoken = if unit.is_empty() { shown } else { format!("{shown} {unit}") };
-    let moved = slider(ui, track, &Slider {
-        label: control.label,
-        spoken: &spoken,
-        rail: Rail { range: (control.range)(scenario), scale: control.scale },
-        value: value.or(*remembered).unwrap_or(0.0),
-        notch: control.value(base),
-        on: value.is_some(),
-    });
+    let moved = slider(
+        ui,
+        track,
+        &Slider {
+            label: control.label,
+            spoken: &spoken,
+            rail: Rail { range: (control.range)(scenario), scale: control.scale },
+            value: value.or(*remembered).unwrap_or(0.0),
+            notch: control.value(base),
+            on: value.is_some(),
+        },
+    );
     let tip = control.tip;
     moved.0.on_hover_ui(|ui| {
         ui.label(tip);

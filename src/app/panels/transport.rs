@@ -48,13 +48,20 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
     let clock = fixed(state.time, 3);
     let at = pos2(x + 12.0, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
-    let unit = text::paint(ui, drawn.right_center() + vec2(4.0, 0.0), Align2::LEFT_CENTER, "s", fonts::regular(13.0), theme.dim);
+    let unit = text::paint(
+        ui,
+        drawn.right_center() + vec2(4.0, 0.0),
+        Align2::LEFT_CENTER,
+        "s",
+        fonts::regular(13.0),
+        theme.dim,
+    );
     let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + 16.0;
 
     let mut right = rect.right() - if narrow { 6.0 } else { 10.0 };
     right -= size;
     let look = if state.looping { Look::Lit } else { Look::Plain };
-    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(size - 4.0, size - 4.0));
+    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(34.0, 34.0));
     if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
         out.push(Command::ToggleLoop);
     }
@@ -77,9 +84,11 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
     text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
     let track = Rect::from_min_max(right - vec2(width + 42.0, height / 2.0), right + vec2(-42.0, height / 2.0));
     let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
-    let (response, moved) = slider::slider(ui, track, &Slider {
-        label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true,
-    });
+    let (response, moved) = slider::slider(
+        ui,
+        track,
+        &Slider { label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true },
+    );
     response.on_hover_text("Speed of playback");
     if let Some(speed) = moved {
         // The natural speed is easy to hit.

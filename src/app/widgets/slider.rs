@@ -42,7 +42,8 @@ pub fn at(rect: Rect, place: f64) -> f32 {
 /// Senses pointer, keys and assistive technology; returns the value asked for. Paints nothing.
 pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<f64>) {
     let id = ui.make_persistent_id(("slider", slider.label));
-    let response = ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    let response =
+        ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     let mut asked = None;
     if let (true, Some(pointer)) = (response.is_pointer_button_down_on(), response.interact_pointer_pos()) {
         let (left, right) = way(rect);
@@ -55,7 +56,10 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
         ui.input(|input| {
             let presses = |key| input.num_presses(key) as f64;
             let big = if input.modifiers.shift { 10.0 } else { 1.0 };
-            steps += big * (presses(Key::ArrowRight) + presses(Key::ArrowUp) - presses(Key::ArrowLeft) - presses(Key::ArrowDown));
+            steps += big
+                * (presses(Key::ArrowRight) + presses(Key::ArrowUp)
+                    - presses(Key::ArrowLeft)
+                    - presses(Key::ArrowDown));
         });
         if ui.input(|input| input.key_pressed(Key::Home)) {
             asked = Some(slider.rail.range.0);
@@ -111,7 +115,12 @@ pub fn paint_handle(ui: &Ui, response: &Response, x: f32, on: bool) {
         ui.painter().circle_filled(center, HANDLE + 6.0, theme.accent.gamma_multiply(0.18));
     }
     let edge = if on { theme.accent } else { theme.dim };
-    ui.painter().circle(center, HANDLE - 1.0 + grown, if theme.dark { theme.ink } else { theme.panel }, Stroke::new(2.0, edge));
+    ui.painter().circle(
+        center,
+        HANDLE - 1.0 + grown,
+        if theme.dark { theme.ink } else { theme.panel },
+        Stroke::new(2.0, edge),
+    );
 }
 
 /// Shows a slider in a rectangle; returns the value asked for.
@@ -124,9 +133,12 @@ pub fn slider(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option
     let shown = asked.unwrap_or(slider.value);
     let (y, x) = (rect.center().y, at(rect, slider.rail.place(shown)));
     let painter = ui.painter();
-    let bar = |from: f32, to: f32, color| painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5), 1.5, color);
-    bar(rect.left() + 2.0, rect.right() - 2.0, theme.faint);
-    let origin = at(rect, slider.rail.place(if slider.rail.range.0 < 0.0 { 0.0 } else { slider.rail.range.0 }));
+    let bar = |from: f32, to: f32, color| {
+        painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5), 1.5, color)
+    };
+    bar(rect.left(), rect.right(), theme.faint);
+    let two_sided = slider.rail.range.0 < 0.0;
+    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { rect.left() };
     let filled = if slider.on { theme.accent } else { theme.dim.gamma_multiply(0.5) };
     bar(origin.min(x), origin.max(x), filled);
     if slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0 {
