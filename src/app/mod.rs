@@ -76,7 +76,7 @@ impl App {
             notes: BTreeMap::new(),
             chip: Chip::default(),
             plots: PlotState::default(),
-            view: ViewState::new(render_state),
+            view: ViewState::new(render_state, host.prefers_reduced_motion),
             host,
         }
     }

@@ -71,7 +71,7 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, fonts::regular(13.0), theme.dim);
         return;
     }
-    let response = ui.interact(rect, ui.id().with("3d"), Sense::click_and_drag());
+    let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
     let mut camera = state.camera.take().unwrap_or_else(|| home_camera(run));
     steer(ui, &response, rect, &mut camera);
@@ -140,8 +140,11 @@ fn labels(ui: &Ui, rect: Rect, camera: &Camera, labels: &[Label], theme: &Theme)
             let top = if dy < 0.0 { anchor.y + dy - text.size().y } else { anchor.y + dy };
             Rect::from_min_size(pos2(left, top), text.size()).expand2(vec2(5.0, 2.0))
         };
-        let places = [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 2.6), (-1.0, 2.6)].map(|(x, y)| place(x, y));
-        let free = |place: &Rect| rect.shrink(4.0).contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place));
+        let places =
+            [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 2.6), (-1.0, 2.6)].map(|(x, y)| place(x, y));
+        let free = |place: &Rect| {
+            rect.shrink(4.0).contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place))
+        };
         let Some(at) = places.into_iter().find(free) else { continue };
         painter.rect_filled(at, 5.0, theme.panel.gamma_multiply(0.82));
         painter.galley(at.min + vec2(5.0, 2.0), text, ink);

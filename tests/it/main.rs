@@ -4,13 +4,13 @@
 mod cli;
 mod experiment;
 mod golden;
-#[cfg(feature = "app")]
+#[cfg(feature = "gui-tests")]
 mod gpu;
 mod misprints;
 mod properties;
-#[cfg(feature = "app")]
+#[cfg(feature = "gui-tests")]
 mod render;
 mod reproducible;
-#[cfg(feature = "app")]
+#[cfg(feature = "gui-tests")]
 mod shaders;
 mod support;

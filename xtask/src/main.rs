@@ -1,2 +1,75 @@
 //! Building, serving and testing: everything that is not the product.
-fn main() {}
+//!
+//! Run as `cargo xtask COMMAND`.
+
+mod build;
+#[cfg(test)]
+mod light;
+mod run;
+mod serve;
+mod shot;
+mod test;
+mod tidy;
+mod tools;
+mod transfer;
+
+use anyhow::Result;
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+#[derive(Parser)]
+#[command(name = "cargo xtask", about = "Builds, serves and tests Centrode")]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Build the page into dist/
+    Build {
+        /// Fast to build, large to load
+        #[arg(long)]
+        dev: bool,
+    },
+    /// Build the page and serve it on this machine
+    Serve {
+        /// Port on 127.0.0.1, 0 for any free one [default: 8080, or the next free one]
+        #[arg(long)]
+        port: Option<u16>,
+        /// Fast to build, large to load
+        #[arg(long)]
+        dev: bool,
+        /// Serve this directory, which is built already, and build nothing
+        #[arg(long, value_name = "DIR", conflicts_with = "dev")]
+        dist: Option<PathBuf>,
+    },
+    /// Run the tests: all of them, or the stages named
+    Test(test::Options),
+    /// Check the rules of the house: who may import whom, and more
+    Tidy,
+    /// Write pictures of the page
+    Shot(shot::Options),
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match obey(arguments.command) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn obey(command: Command) -> Result<()> {
+    match command {
+        Command::Build { dev } => build::build(dev).map(drop),
+        Command::Serve { port, dev, dist } => serve::command(port, dev, dist),
+        Command::Test(options) => test::command(&options),
+        Command::Tidy => tidy::command(),
+        Command::Shot(options) => shot::command(&options),
+    }
+}

@@ -104,7 +104,8 @@ impl View<'_> {
             let back = Threshold::On(line.threshold.value().unwrap_or(line.otherwise));
             outcome.changed = Some(if on { Threshold::OFF } else { back });
         }
-        let response = response.on_hover_text(if on { "Switch this threshold off" } else { "Switch this threshold on" });
+        let response =
+            response.on_hover_text(if on { "Switch this threshold off" } else { "Switch this threshold on" });
         let center = switch.center();
         let strong = response.hovered() || response.has_focus();
         ui.painter().circle_stroke(center, 5.5, Stroke::new(if strong { 2.2 } else { 1.5 }, line.color));

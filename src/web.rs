@@ -1,0 +1,180 @@
+//! The shell in the browser: starts the interface on a canvas and tells the page what happens.
+//!
+//! The page (`web/loader.js`) owns the document; this file only calls the hooks that it was given.
+//! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
+
+mod widgets;
+
+use crate::app::{App, Host};
+use crate::experiment::{Scenario, simulate};
+use eframe::wgpu;
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+use wasm_bindgen::prelude::*;
+use web_sys::HtmlCanvasElement;
+
+#[wasm_bindgen]
+extern "C" {
+    /// How to start, an object `{ renderer, reducedMotion, test }`.
+    pub type Options;
+    /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
+    #[wasm_bindgen(method, getter)]
+    fn renderer(this: &Options) -> String;
+    /// The person asked for less motion.
+    #[wasm_bindgen(method, getter, js_name = reducedMotion)]
+    fn reduced_motion(this: &Options) -> bool;
+    /// Opened by a test: keep the list of widgets and obey [`fail_on_purpose`].
+    #[wasm_bindgen(method, getter)]
+    fn test(this: &Options) -> bool;
+
+    /// What the page wants to hear of.
+    pub type Hooks;
+    /// The state changed; `json` is `App::report`.
+    #[wasm_bindgen(method)]
+    fn report(this: &Hooks, json: &str);
+    /// The program panicked and will not go on.
+    #[wasm_bindgen(method)]
+    fn panicked(this: &Hooks, message: &str);
+    /// The graphics device is gone and will not come back.
+    #[wasm_bindgen(method)]
+    fn lost(this: &Hooks, message: &str);
+}
+
+thread_local! {
+    static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
+    static HOOKS: RefCell<Option<Hooks>> = const { RefCell::new(None) };
+    static FAIL: Cell<bool> = const { Cell::new(false) };
+    static CONTEXT: RefCell<Option<egui::Context>> = const { RefCell::new(None) };
+}
+
+fn with_hooks(call: impl FnOnce(&Hooks)) {
+    // A panic inside a hook must not lead to a second panic here.
+    HOOKS.with(|hooks| {
+        if let Ok(hooks) = hooks.try_borrow()
+            && let Some(hooks) = hooks.as_ref()
+        {
+            call(hooks);
+        }
+    });
+}
+
+/// Starts the interface on `canvas`; resolves to the renderer in use, `"webgpu"` or `"webgl"`.
+///
+/// # Errors
+/// Rejects with a message when the renderer cannot be had. The canvas may then be bound to a context
+/// already: try again on a fresh one.
+#[wasm_bindgen]
+pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) -> Result<String, JsValue> {
+    HOOKS.set(Some(hooks));
+    let runner = RUNNER.with_borrow_mut(|runner| runner.get_or_insert_with(install).clone());
+    let backends = match options.renderer().as_str() {
+        "webgpu" => wgpu::Backends::BROWSER_WEBGPU,
+        "webgl" => wgpu::Backends::GL,
+        _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
+    };
+    let host = Host { prefers_reduced_motion: options.reduced_motion(), ..Host::default() };
+    let test = options.test();
+    let name = std::rc::Rc::new(Cell::new(""));
+    let name_out = std::rc::Rc::clone(&name);
+    let create = move |cc: &eframe::CreationContext<'_>| {
+        if test {
+            cc.egui_ctx.enable_accesskit();
+            cc.egui_ctx.add_plugin(widgets::Collector);
+            CONTEXT.set(Some(cc.egui_ctx.clone()));
+        }
+        if let Some(state) = &cc.wgpu_render_state {
+            name_out.set(watch(state));
+        }
+        let app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), host);
+        Ok(Box::new(Shell { app, last_report: String::new() }) as Box<dyn eframe::App>)
+    };
+    runner.start(canvas, web_options(backends), Box::new(create)).await?;
+    Ok(name.get().to_owned())
+}
+
+/// Panics to the page, log lines to the console. Once per page.
+fn install() -> eframe::WebRunner {
+    std::panic::set_hook(Box::new(|info| {
+        let message = info.to_string();
+        with_hooks(|hooks| hooks.panicked(&message));
+    }));
+    // Fails only when a logger is there already, which is as good.
+    let _ = eframe::WebLogger::init(log::LevelFilter::Warn);
+    eframe::WebRunner::new()
+}
+
+fn web_options(backends: wgpu::Backends) -> eframe::WebOptions {
+    let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = backends;
+    setup.device_descriptor = Arc::new(|adapter| wgpu::DeviceDescriptor {
+        label: Some("centrode device"),
+        // What WebGL2 gives everywhere, with the textures as large as this device allows:
+        // eframe's fixed 8192 is refused by some phones.
+        required_limits: wgpu::Limits::downlevel_webgl2_defaults().using_resolution(adapter.limits()),
+        ..Default::default()
+    });
+    eframe::WebOptions {
+        wgpu_options: egui_wgpu::WgpuConfiguration { wgpu_setup: setup.into(), ..Default::default() },
+        ..Default::default()
+    }
+}
+
+/// Listens for the end of the device and for WebGPU's late errors; says which renderer this is.
+fn watch(state: &egui_wgpu::RenderState) -> &'static str {
+    state.device.set_device_lost_callback(|reason, message| {
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            with_hooks(|hooks| hooks.lost(&message));
+        }
+    });
+    if state.adapter.get_info().backend == wgpu::Backend::BrowserWebGpu {
+        state.device.on_uncaptured_error(Arc::new(|error| log::error!("WebGPU: {error}")));
+        "webgpu"
+    } else {
+        "webgl"
+    }
+}
+
+struct Shell {
+    app: App,
+    last_report: String,
+}
+
+impl eframe::App for Shell {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        assert!(!FAIL.get(), "a test asked for this panic");
+        self.app.ui(ui);
+        let report = self.app.report();
+        if report != self.last_report {
+            with_hooks(|hooks| hooks.report(&report));
+            self.last_report = report;
+        }
+    }
+}
+
+/// Every widget on the page as a JSON array, see [`widgets::Collector`]. Empty unless opened by a test.
+#[wasm_bindgen]
+pub fn widgets() -> String {
+    widgets::to_json()
+}
+
+/// Panics in the next frame, so that a test can see what a person would. Does nothing unless opened by a test.
+#[wasm_bindgen]
+pub fn fail_on_purpose() {
+    CONTEXT.with_borrow(|ctx| {
+        if let Some(ctx) = ctx {
+            FAIL.set(true);
+            ctx.request_repaint();
+        }
+    });
+}
+
+/// A hash of every channel of the run that this scenario (TOML) gives, to be compared with the native one.
+/// An invalid scenario gives its error message instead.
+#[wasm_bindgen]
+#[must_use]
+pub fn fingerprint(scenario_toml: &str) -> String {
+    match Scenario::from_toml(scenario_toml).and_then(|scenario| simulate(&scenario)) {
+        Ok(run) => format!("{:016x}", run.fingerprint()),
+        Err(error) => error.to_string(),
+    }
+}

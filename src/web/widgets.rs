@@ -1,0 +1,73 @@
+//! The widgets of the last frame as JSON, read from egui's accessibility tree.
+//!
+//! eframe drops that tree in the browser, so a plugin picks it up.
+
+use egui::accesskit::{Node, NodeId, Toggled, TreeUpdate};
+use serde_json::{Value, json};
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+thread_local! {
+    static LAST: RefCell<Option<(TreeUpdate, f64)>> = const { RefCell::new(None) };
+}
+
+/// Keeps the accessibility tree of the last frame.
+pub struct Collector;
+
+impl egui::Plugin for Collector {
+    fn debug_name(&self) -> &'static str {
+        "widgets"
+    }
+
+    fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
+        if let Some(update) = output.platform_output.accesskit_update.take() {
+            // Bounds are in points; the page counts in CSS pixels.
+            LAST.set(Some((update, f64::from(ctx.zoom_factor()))));
+        }
+    }
+}
+
+/// `[{ id, role, label, value, number, min, max, step, on, disabled, focused, bounds: [x, y, width, height] }]`, bounds in CSS pixels.
+/// What a widget does not have is left out.
+pub fn to_json() -> String {
+    LAST.with_borrow(|last| {
+        let Some((update, scale)) = last else {
+            return "[]".to_owned();
+        };
+        let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
+        let list: Vec<Value> =
+            update.nodes.iter().map(|(id, node)| describe(*id, node, &nodes, update.focus, *scale)).collect();
+        Value::Array(list).to_string()
+    })
+}
+
+/// A widget's name: its own label, or the texts of the widgets that label it.
+fn name(node: &Node, nodes: &HashMap<NodeId, &Node>) -> Option<String> {
+    if let Some(label) = node.label() {
+        return Some(label.to_owned());
+    }
+    let texts: Vec<&str> =
+        node.labelled_by().iter().filter_map(|id| nodes.get(id)).filter_map(|by| by.label().or(by.value())).collect();
+    (!texts.is_empty()).then(|| texts.join(" "))
+}
+
+fn describe(id: NodeId, node: &Node, nodes: &HashMap<NodeId, &Node>, focus: NodeId, scale: f64) -> Value {
+    let mut all = json!({
+        "id": id.0.to_string(),
+        "role": format!("{:?}", node.role()),
+        "label": name(node, nodes),
+        "value": node.value(),
+        "number": node.numeric_value(),
+        "min": node.min_numeric_value(),
+        "max": node.max_numeric_value(),
+        "step": node.numeric_value_step(),
+        "on": node.toggled().map(|toggled| toggled == Toggled::True),
+        "disabled": node.is_disabled().then_some(true),
+        "focused": (id == focus).then_some(true),
+        "bounds": node.bounds().map(|b| [b.x0 * scale, b.y0 * scale, b.width() * scale, b.height() * scale]),
+    });
+    if let Some(map) = all.as_object_mut() {
+        map.retain(|_, value| !value.is_null());
+    }
+    all
+}

@@ -1,0 +1,9 @@
+//! Drives the built page in a real Chromium, over its DevTools protocol. No Node, no downloaded driver.
+
+mod chromium;
+mod page;
+mod picture;
+
+pub use chromium::Renderer;
+pub use page::{Options, Page, Widget};
+pub use picture::{Area, Picture};

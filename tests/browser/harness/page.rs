@@ -1,0 +1,339 @@
+//! The page as a person uses it: look, click, drag, type. Widgets are found by their names.
+
+use super::chromium::{Chromium, Renderer};
+use super::picture::Picture;
+use base64::Engine;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use std::thread;
+use std::time::{Duration, Instant};
+
+/// Software rendering gives a few frames a second, and a cold start compiles megabytes of wasm.
+const PATIENCE: Duration = Duration::from_secs(150);
+
+/// How the page is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Width and height in CSS pixels.
+    pub size: [u32; 2],
+    /// Device pixels per CSS pixel.
+    pub scale: f64,
+    /// A phone: touch, and its viewport rules.
+    pub phone: bool,
+    /// The person prefers dark colours.
+    pub dark: bool,
+    /// The person prefers less motion.
+    pub still: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { size: [1280, 800], scale: 1.0, phone: false, dark: false, still: false }
+    }
+}
+
+impl Options {
+    /// A phone held upright.
+    pub fn phone() -> Self {
+        Self { size: [390, 844], scale: 2.0, phone: true, ..Self::default() }
+    }
+}
+
+/// A widget of the interface, as accessibility tools see it. Bounds in CSS pixels.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Widget {
+    /// `Slider`, `SpinButton`, `Button`, `CheckBox`, `Label`, …
+    pub role: String,
+    #[serde(default)]
+    pub label: String,
+    #[serde(default)]
+    pub value: String,
+    pub number: Option<f64>,
+    pub min: Option<f64>,
+    pub max: Option<f64>,
+    pub on: Option<bool>,
+    #[serde(default)]
+    pub disabled: bool,
+    #[serde(default)]
+    pub focused: bool,
+    /// x, y, width, height
+    pub bounds: Option<[f64; 4]>,
+}
+
+/// The page in a browser of its own.
+pub struct Page {
+    chromium: Chromium,
+    options: Options,
+}
+
+impl Page {
+    /// Opens the page with `query` (such as `"?test"`) and waits until it shows a picture.
+    #[track_caller]
+    pub fn open(renderer: Renderer, query: &str, options: Options) -> Self {
+        let mut page = Self::visit(renderer, query, options);
+        page.wait("the page to be ready", |page| match page.shown().as_str() {
+            "running" => (page.data("ready").as_deref() == Some("true")).then_some(()),
+            "loading" => None,
+            other => panic!("the page shows {other:?}: {}", page.text(&format!("#{other}"))),
+        });
+        page
+    }
+
+    /// Opens the page and waits for nothing.
+    #[track_caller]
+    pub fn visit(renderer: Renderer, query: &str, options: Options) -> Self {
+        let address = std::env::var("CENTRODE_PAGE")
+            .expect("CENTRODE_PAGE names no page: these tests are run by `cargo xtask test browser`");
+        let mut page = Self { chromium: Chromium::start(renderer, options.scale), options };
+        page.resize(options.size);
+        let preference = |name, on, yes, no| json!({ "name": name, "value": if on { yes } else { no } });
+        page.chromium.call(
+            "Emulation.setEmulatedMedia",
+            json!({ "features": [
+                preference("prefers-color-scheme", options.dark, "dark", "light"),
+                preference("prefers-reduced-motion", options.still, "reduce", "no-preference"),
+            ]}),
+        );
+        if options.phone {
+            page.chromium.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
+        }
+        page.go(&format!("{address}{query}"));
+        page
+    }
+
+    /// Goes to an address and waits for nothing.
+    #[track_caller]
+    pub fn go(&mut self, address: &str) {
+        let result = self.chromium.call("Page.navigate", json!({ "url": address }));
+        assert!(result.get("errorText").is_none(), "{address}: {result}");
+        self.wait("the document", |page| {
+            (page.eval("document.readyState") != "loading" && !page.shown().is_empty()).then_some(())
+        });
+    }
+
+    /// Gives the page another size, in CSS pixels.
+    pub fn resize(&mut self, size: [u32; 2]) {
+        self.options.size = size;
+        self.chromium.call(
+            "Emulation.setDeviceMetricsOverride",
+            json!({
+                "width": size[0], "height": size[1],
+                // As the browser was started: emulated, it would not reach a canvas's device pixels.
+                "deviceScaleFactor": 0, "mobile": self.options.phone,
+            }),
+        );
+    }
+
+    /// Asks until there is an answer; `what` is for the failure's message.
+    #[track_caller]
+    pub fn wait<T>(&mut self, what: &str, mut ask: impl FnMut(&mut Self) -> Option<T>) -> T {
+        let start = Instant::now();
+        loop {
+            if let Some(answer) = ask(self) {
+                return answer;
+            }
+            if start.elapsed() > PATIENCE {
+                let (shown, mirror, problems) = (self.shown(), self.mirror(), self.problems());
+                panic!("waited in vain for {what}\nshown: {shown}\nmirror: {mirror}\nconsole: {problems:#?}");
+            }
+            thread::sleep(Duration::from_millis(50));
+        }
+    }
+
+    /// Evaluates JavaScript, awaiting promises.
+    #[track_caller]
+    pub fn eval(&mut self, script: &str) -> Value {
+        let mut result = self
+            .chromium
+            .call("Runtime.evaluate", json!({ "expression": script, "returnByValue": true, "awaitPromise": true }));
+        if let Some(exception) = result.get("exceptionDetails") {
+            panic!("{script}: {exception}");
+        }
+        result["result"]["value"].take()
+    }
+
+    /// Runs this script at the start of every page visited from now on.
+    pub fn before_scripts(&mut self, script: &str) {
+        self.chromium.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
+    }
+
+    /// Answers every request for a file of this name with `status` from now on.
+    pub fn block(&mut self, file: &str, status: u16) {
+        self.chromium.block = Some(status);
+        self.chromium.call("Fetch.enable", json!({ "patterns": [{ "urlPattern": format!("*/{file}") }] }));
+    }
+
+    /// Which face the page shows: `loading`, `running`, `no-gpu` or `failed`.
+    pub fn shown(&mut self) -> String {
+        let page = self.eval("document.documentElement?.dataset.page ?? ''");
+        page.as_str().unwrap_or_default().to_owned()
+    }
+
+    /// The visible text of the first element that `selector` finds.
+    pub fn text(&mut self, selector: &str) -> String {
+        let script = format!("document.querySelector({})?.innerText ?? ''", json!(selector));
+        self.eval(&script).as_str().unwrap_or_default().to_owned()
+    }
+
+    /// The mirror's attribute `data-key`, written in camel case (`detectionTime`).
+    pub fn data(&mut self, key: &str) -> Option<String> {
+        self.mirror()[key].as_str().map(str::to_owned)
+    }
+
+    /// The mirror's attribute as a number.
+    pub fn number(&mut self, key: &str) -> Option<f64> {
+        self.data(key)?.parse().ok()
+    }
+
+    /// All of the mirror's attributes.
+    pub fn mirror(&mut self) -> Value {
+        self.eval("({ ...document.getElementById('mirror')?.dataset })")
+    }
+
+    /// All widgets. The page must have been opened with `?test`.
+    #[track_caller]
+    pub fn widgets(&mut self) -> Vec<Widget> {
+        let json = self.eval("centrode.widgets()");
+        serde_json::from_str(json.as_str().unwrap_or_default()).expect("a list of widgets")
+    }
+
+    /// The widget of this role and name; waits until it is there.
+    #[track_caller]
+    pub fn widget(&mut self, role: &str, label: &str) -> Widget {
+        self.wait(&format!("a {role} named {label:?}"), |page| {
+            let mut widgets = page.widgets().into_iter();
+            widgets.find(|widget| widget.role == role && widget.label == label)
+        })
+    }
+
+    /// Waits for the next two frames, in which the interface has taken in what was done.
+    pub fn frames(&mut self) {
+        self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))");
+    }
+
+    /// Clicks in the middle of a widget.
+    #[track_caller]
+    pub fn click(&mut self, role: &str, label: &str) {
+        let widget = self.widget(role, label);
+        let at = widget.at(0.5);
+        self.mouse("mouseMoved", at);
+        self.frames();
+        // No frame between: a slow one would make a long press of it.
+        self.mouse("mousePressed", at);
+        self.mouse("mouseReleased", at);
+        self.frames();
+    }
+
+    /// Drags between two places inside a widget, given as fractions of its width.
+    #[track_caller]
+    pub fn drag(&mut self, role: &str, label: &str, from: f64, to: f64) {
+        let widget = self.widget(role, label);
+        let (start, end) = (widget.at(from), widget.at(to));
+        let middle = [(start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0];
+        for (what, at) in [
+            ("mouseMoved", start),
+            ("mousePressed", start),
+            ("mouseMoved", middle),
+            ("mouseMoved", end),
+            ("mouseReleased", end),
+        ] {
+            self.mouse(what, at);
+            self.frames();
+        }
+    }
+
+    /// Types a number into the field beside a slider and presses Enter.
+    #[track_caller]
+    pub fn type_number(&mut self, label: &str, text: &str) {
+        self.click("SpinButton", label);
+        self.wait("the field to take text", |page| {
+            (page.eval("document.activeElement?.tagName") == "INPUT").then_some(())
+        });
+        self.chromium.call("Input.insertText", json!({ "text": text }));
+        self.frames();
+        self.key("Enter");
+    }
+
+    /// Presses and releases a key, named as in JavaScript (`" "`, `ArrowRight`, `Home`, `a`).
+    pub fn key(&mut self, key: &str) {
+        let text = match key {
+            "Enter" => "\r",
+            key if key.chars().count() == 1 => key,
+            _ => "",
+        };
+        let code = if key == " " { "Space" } else { key };
+        for (what, text) in [("keyDown", text), ("keyUp", "")] {
+            self.chromium
+                .call("Input.dispatchKeyEvent", json!({ "type": what, "key": key, "code": code, "text": text }));
+            self.frames();
+        }
+    }
+
+    /// A mouse event at a place of the page, in CSS pixels: `mouseMoved`, `mousePressed` or `mouseReleased`.
+    pub fn mouse(&mut self, what: &str, [x, y]: [f64; 2]) {
+        let button = if what == "mouseMoved" { "none" } else { "left" };
+        self.chromium.call(
+            "Input.dispatchMouseEvent",
+            json!({ "type": what, "x": x, "y": y, "button": button, "clickCount": 1 }),
+        );
+    }
+
+    /// Turns the mouse wheel over a place of the page.
+    pub fn wheel(&mut self, [x, y]: [f64; 2], down: f64) {
+        self.chromium.call(
+            "Input.dispatchMouseEvent",
+            json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down }),
+        );
+        self.frames();
+    }
+
+    /// Taps with a finger.
+    pub fn tap(&mut self, [x, y]: [f64; 2]) {
+        for (what, points) in [("touchStart", json!([{ "x": x, "y": y }])), ("touchEnd", json!([]))] {
+            self.chromium.call("Input.dispatchTouchEvent", json!({ "type": what, "touchPoints": points }));
+            self.frames();
+        }
+    }
+
+    /// What the page looks like now, in device pixels.
+    pub fn picture(&mut self) -> Picture {
+        Picture::decode(&self.png())
+    }
+
+    /// What the page looks like now, as a PNG file.
+    pub fn png(&mut self) -> Vec<u8> {
+        let shot = self.chromium.call("Page.captureScreenshot", json!({ "format": "png" }));
+        let data = shot["data"].as_str().unwrap_or_default();
+        let engine = base64::engine::general_purpose::STANDARD;
+        engine.decode(data).expect("the browser sends base64")
+    }
+
+    /// Errors that the console has shown so far, and exceptions that nobody caught.
+    pub fn problems(&mut self) -> Vec<String> {
+        self.chromium.listen();
+        self.chromium.events.iter().filter_map(problem).collect()
+    }
+}
+
+impl Widget {
+    /// A place inside, at this fraction of the width and half the height.
+    #[track_caller]
+    pub fn at(&self, fraction: f64) -> [f64; 2] {
+        let [x, y, width, height] = self.bounds.expect("a widget that can be seen");
+        [x + fraction * width, y + height / 2.0]
+    }
+}
+
+fn problem(event: &Value) -> Option<String> {
+    let parameters = &event["params"];
+    match event["method"].as_str()? {
+        "Runtime.exceptionThrown" => Some(parameters["exceptionDetails"].to_string()),
+        "Runtime.consoleAPICalled" if matches!(parameters["type"].as_str(), Some("error" | "assert")) => {
+            let words = parameters["args"].as_array()?.iter();
+            let words = words.map(|arg| arg["value"].as_str().map_or(arg.to_string(), str::to_owned));
+            Some(words.collect::<Vec<_>>().join(" "))
+        }
+        "Log.entryAdded" if parameters["entry"]["level"] == "error" => Some(parameters["entry"].to_string()),
+        _ => None,
+    }
+}

@@ -1,0 +1,109 @@
+//! The page starts, draws, moves and listens, on every renderer and screen.
+
+use crate::harness::{Area, Options, Page, Picture, Renderer};
+
+/// The middle of the window, away from its panels.
+const MIDDLE: Area = Area(0.3, 0.2, 0.7, 0.6);
+
+/// Waits until the picture differs from `before`.
+#[track_caller]
+fn wait_for_motion(page: &mut Page, before: &Picture) {
+    page.wait("the picture to move", |page| (page.picture().changed(before, Area::ALL) > 100).then_some(()));
+}
+
+#[track_caller]
+fn draws_and_moves(renderer: Renderer, name: &str) {
+    let mut page = Page::open(renderer, "?test", Options::default());
+    assert_eq!(page.data("renderer").as_deref(), Some(name));
+    let before = page.picture();
+    assert!(before.colours(MIDDLE) > 8, "the middle of the page is blank");
+    wait_for_motion(&mut page, &before);
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn draws_and_moves_on_webgl() {
+    draws_and_moves(Renderer::WebGl, "webgl");
+}
+
+#[test]
+fn draws_and_moves_on_webgpu() {
+    draws_and_moves(Renderer::WebGpu, "webgpu");
+}
+
+#[test]
+fn the_renderer_can_be_chosen() {
+    for (query, name) in [("", "webgpu"), ("&renderer=webgl", "webgl"), ("&renderer=webgpu", "webgpu")] {
+        let mut page = Page::open(Renderer::Both, &format!("?test{query}"), Options::default());
+        assert_eq!(page.data("renderer").as_deref(), Some(name), "{query}");
+        assert_eq!(page.eval("document.getElementById('notice').open"), false);
+    }
+}
+
+#[test]
+fn says_its_state_in_words() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    let first = page.number("time").expect("a time");
+    page.wait("time to go on", |page| page.number("time").filter(|time| *time != first));
+    let state = page.data("state").expect("a state");
+    assert!(["free", "in contact", "detected"].contains(&state.as_str()), "{state}");
+    let words = page.eval("document.getElementById('mirror').textContent");
+    assert!(words.as_str().is_some_and(|words| !words.is_empty()));
+}
+
+#[test]
+fn a_slider_obeys_mouse_and_keyboard() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    page.type_number("Contact disk", "0");
+    page.wait("no detection", |page| page.data("detectionTime").is_none().then_some(()));
+    assert_eq!(page.widget("SpinButton", "Contact disk").number, Some(0.0));
+    page.drag("Slider", "Contact disk", 0.05, 0.98);
+    page.wait("a detection", |page| page.number("detectionTime"));
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn fills_a_phone_and_turns_with_it() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::phone());
+    for size in [[390, 844], [844, 390]] {
+        page.resize(size);
+        page.wait("the canvas to fill the window", |page| {
+            let canvas = page.eval(
+                "(() => { const r = document.getElementById('canvas').getBoundingClientRect(); \
+                 const c = document.getElementById('canvas'); \
+                 return [r.width, r.height, c.width, c.height, document.documentElement.scrollWidth]; })()",
+            );
+            let [w, h] = size.map(f64::from);
+            let wanted = [w, h, 2.0 * w, 2.0 * h, w].map(Some);
+            let found: Vec<Option<f64>> = canvas.as_array().into_iter().flatten().map(|v| v.as_f64()).collect();
+            (found == wanted).then_some(())
+        });
+        let picture = page.picture();
+        assert!(picture.colours(Area::ALL) > 8);
+    }
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn follows_dark_and_light() {
+    for dark in [false, true] {
+        let options = Options { dark, ..Options::default() };
+        let mut page = Page::open(Renderer::WebGl, "?test", options);
+        let brightness = page.picture().brightness(Area::ALL);
+        assert_eq!(brightness < 128.0, dark, "brightness {brightness}");
+    }
+}
+
+#[test]
+fn exports_what_runs_without_a_canvas() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    let one = page.eval("centrode.fingerprint('')");
+    assert!(one.as_str().is_some_and(|hash| !hash.is_empty()));
+    assert_eq!(one, page.eval("centrode.fingerprint('')"));
+}
+
+#[test]
+fn a_visitor_gets_no_test_doors() {
+    let mut page = Page::open(Renderer::WebGl, "", Options::default());
+    assert_eq!(page.eval("typeof centrode"), "undefined");
+}

@@ -1,0 +1,33 @@
+// Fetches the program and counts its bytes.
+
+/// Fetches `url` as a wasm response that can be compiled while it arrives.
+///
+/// What a stream hands out is already decompressed, so it is counted against `total`, the size that the build
+/// wrote into the page: Content-Length may be missing, or be that of the compressed body.
+export async function download(url, total, onProgress) {
+  const response = await fetch(url);
+  if (!response.ok) {
+    throw new Error(`${url.pathname}: the server answered ${response.status} ${response.statusText}`);
+  }
+  // Its own content type, because some static hosts send none for wasm.
+  const headers = { "Content-Type": "application/wasm" };
+  if (!response.body) return new Response(await response.arrayBuffer(), { headers });
+
+  let received = 0;
+  const reader = response.body.getReader();
+  const counted = new ReadableStream({
+    async pull(controller) {
+      const { done, value } = await reader.read();
+      if (done) {
+        onProgress(received, received);
+        controller.close();
+        return;
+      }
+      received += value.byteLength;
+      onProgress(received, total);
+      controller.enqueue(value);
+    },
+    cancel: (reason) => reader.cancel(reason),
+  });
+  return new Response(counted, { headers });
+}

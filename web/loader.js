@@ -1,0 +1,85 @@
+// Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
+import { download } from "./download.js";
+import { mirror } from "./mirror.js";
+import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
+import { readQuery } from "./query.js";
+
+const { settings, notices } = readQuery(location.search);
+let failed = false;
+
+function fail(show, ...args) {
+  // The first cause is the one worth reading; what follows are its consequences.
+  if (failed) return;
+  failed = true;
+  show(...args);
+}
+
+addEventListener("error", (event) => {
+  // Without `error` it is an element that did not load, or a browser's note such as a resize loop.
+  if (event.error) fail(showFailure, describe(event.error));
+});
+addEventListener("unhandledrejection", (event) => fail(showFailure, describe(event.reason)));
+
+function describe(cause) {
+  return cause instanceof Error ? (cause.stack?.includes(cause.message) ? cause.stack : `${cause}\n${cause.stack ?? ""}`) : String(cause);
+}
+
+const hooks = {
+  report(json) {
+    if (failed) return;
+    mirror.report(JSON.parse(json));
+    if (mirror.ready) return;
+    mirror.ready = true;
+    // The first frame was computed just now and is on the screen after the next one.
+    requestAnimationFrame(() => requestAnimationFrame(() => failed || showRunning()));
+  },
+  panicked: (message) => fail(showFailure, message),
+  lost: (message) => fail(showLost, message),
+};
+
+/// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
+function freshCanvas() {
+  const old = document.getElementById("canvas");
+  const canvas = old.cloneNode();
+  canvas.removeAttribute("style");
+  old.replaceWith(canvas);
+  return canvas;
+}
+
+async function startOnSome(core) {
+  // "auto" falls back by itself where no WebGPU adapter exists, but not when the adapter then refuses a device.
+  const attempts = { auto: ["auto", "webgl"], webgpu: ["webgpu", "webgl"], webgl: ["webgl", "webgpu"] }[settings.renderer];
+  const errors = [];
+  for (const renderer of attempts) {
+    const canvas = freshCanvas();
+    canvas.addEventListener("webglcontextlost", () => fail(showLost, ""));
+    const options = {
+      renderer,
+      reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
+      test: settings.test,
+    };
+    try {
+      const used = await core.start(canvas, options, hooks);
+      mirror.renderer = used;
+      if (settings.renderer !== "auto" && settings.renderer !== used) {
+        notices.push(`renderer=${settings.renderer} is not available in this browser here; drawing with ${used} instead.`);
+      }
+      return true;
+    } catch (error) {
+      errors.push(`${renderer}: ${error instanceof Error ? error.message : error}`);
+    }
+  }
+  fail(showNoGpu, errors.join("\n"));
+  return false;
+}
+
+async function main() {
+  const script = document.querySelector("script[data-wasm-bytes]");
+  const core = await import("./centrode.js");
+  const wasm = await download(new URL("./centrode_bg.wasm", import.meta.url), Number(script.dataset.wasmBytes), showProgress);
+  await core.default({ module_or_path: wasm });
+  if (settings.test) globalThis.centrode = core;
+  if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());
+}
+
+main().catch((error) => fail(showFailure, describe(error)));

@@ -1,0 +1,41 @@
+// The state in words, for screen readers and tests: what a canvas cannot tell.
+
+const element = document.getElementById("mirror");
+const SPEAK_EVERY_MS = 1000;
+let spoken = "";
+let pending = null;
+let wanted = "";
+
+function speak() {
+  pending = null;
+  if (wanted === spoken) return;
+  spoken = wanted;
+  element.textContent = wanted;
+  pending = setTimeout(speak, SPEAK_EVERY_MS);
+}
+
+function set(key, value) {
+  if (value === null || value === undefined) delete element.dataset[key];
+  else if (element.dataset[key] !== String(value)) element.dataset[key] = value;
+}
+
+export const mirror = {
+  /// `{ state, time, detection_time, summary }` as `App::report` gives it.
+  report({ state, time, detection_time: detectionTime, summary }) {
+    set("state", state);
+    set("time", time);
+    set("detectionTime", detectionTime);
+    wanted = summary ?? "";
+    // A live region that changes with every frame would never let a reader finish a sentence.
+    if (pending === null) speak();
+  },
+  set renderer(name) {
+    set("renderer", name);
+  },
+  get ready() {
+    return element.dataset.ready === "true";
+  },
+  set ready(value) {
+    set("ready", value);
+  },
+};

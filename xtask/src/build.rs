@@ -1,0 +1,148 @@
+//! The page: wasm, its JavaScript, and the files of `web/`, assembled in `dist/`.
+
+use crate::run::{cargo, root, run};
+use crate::tools::{self, WASM};
+use crate::transfer;
+use anyhow::{Context, Result};
+use std::collections::BTreeMap;
+use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Files by their path inside the page.
+type Files = BTreeMap<String, Vec<u8>>;
+
+/// Builds the page and gives its directory. `dev`: fast to build, large to load.
+pub fn build(dev: bool) -> Result<PathBuf> {
+    let start = Instant::now();
+    tools::wasm_target()?;
+    let module = compile(dev)?;
+    let files = page(&root(), bind(&module)?)?;
+    let dist = root().join("dist");
+    write(&dist, &files)?;
+    println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
+    if !dev {
+        transfer::print(&files);
+    }
+    Ok(dist)
+}
+
+/// Compiles the library as a wasm module.
+fn compile(dev: bool) -> Result<PathBuf> {
+    let profile = if dev { "web-dev" } else { "web" };
+    // Not as crate-type in Cargo.toml: together with rlib it switches link-time optimisation off.
+    run(cargo()
+        .args(["rustc", "--lib", "--crate-type", "cdylib"])
+        .args(["--package", "centrode", "--target", WASM])
+        .args(["--no-default-features", "--features", "app"])
+        .args(["--profile", profile]))?;
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
+    Ok(root().join(target).join(WASM).join(profile).join("centrode.wasm"))
+}
+
+/// Makes the JavaScript side of the module.
+fn bind(module: &Path) -> Result<Files> {
+    let mut output = wasm_bindgen_cli_support::Bindgen::new()
+        .input_path(module)
+        .out_name("centrode")
+        .web(true)?
+        .typescript(false)
+        .keep_debug(false)
+        .remove_name_section(true)
+        .generate_output()?;
+    // Small JavaScript files that dependencies bring along.
+    let mut files = Files::new();
+    for (name, parts) in output.snippets() {
+        for (i, text) in parts.iter().enumerate() {
+            let path = format!("snippets/{name}/inline{i}.js");
+            files.insert(path, text.as_bytes().to_vec());
+        }
+    }
+    for (name, text) in output.local_modules() {
+        files.insert(format!("snippets/{name}"), text.as_bytes().to_vec());
+    }
+    files.insert("centrode.js".into(), output.js().as_bytes().to_vec());
+    files.insert("centrode_bg.wasm".into(), output.wasm_mut().emit_wasm());
+    Ok(files)
+}
+
+/// All files of the page. What never changes under one name lies in a directory named by its content,
+/// so that no browser can mix two builds.
+fn page(root: &Path, mut parts: Files) -> Result<Files> {
+    for entry in fs::read_dir(root.join("web")).context("web/")? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|extension| extension == "js") {
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            parts.insert(name.into_owned(), fs::read(&path)?);
+        }
+    }
+    parts.insert("icon.svg".into(), fs::read(root.join("assets/icons/icon.svg"))?);
+
+    let folder = format!("build-{:016x}", fingerprint(&parts));
+    let wasm_bytes = parts["centrode_bg.wasm"].len().to_string();
+    let index = fs::read_to_string(root.join("index.html")).context("index.html")?;
+    let style = fs::read_to_string(root.join("web/style.css")).context("web/style.css")?;
+    let index =
+        index.replace("@BUILD@", &folder).replace("@STYLE@", style.trim_end()).replace("@WASM_BYTES@", &wasm_bytes);
+
+    let mut files: Files = parts.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)).collect();
+    files.insert("index.html".into(), index.into_bytes());
+    Ok(files)
+}
+
+fn fingerprint(files: &Files) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    files.hash(&mut hasher);
+    hasher.finish()
+}
+
+/// Writes the files and nothing else into `dist`.
+fn write(dist: &Path, files: &Files) -> Result<()> {
+    if dist.exists() {
+        fs::remove_dir_all(dist).context("cannot empty dist/")?;
+    }
+    for (name, bytes) in files {
+        let path = dist.join(name);
+        fs::create_dir_all(path.parent().unwrap_or(dist))?;
+        fs::write(&path, bytes).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parts() -> Files {
+        Files::from([("centrode.js".into(), b"export default 1".to_vec()), ("centrode_bg.wasm".into(), vec![0; 123])])
+    }
+
+    #[test]
+    fn every_reference_of_the_page_is_relative_and_exists() {
+        let files = page(&root(), parts()).unwrap();
+        let index = String::from_utf8(files["index.html"].clone()).unwrap();
+        let mut references = 0;
+        for attribute in ["src=\"", "href=\""] {
+            for rest in index.split(attribute).skip(1) {
+                let reference = rest.split('"').next().unwrap();
+                assert!(files.contains_key(reference), "{reference}");
+                references += 1;
+            }
+        }
+        assert!(references >= 5);
+        assert!(!index.contains('@') || !index.contains("@BUILD@"));
+        assert!(index.contains("data-wasm-bytes=\"123\""));
+    }
+
+    #[test]
+    fn another_module_gets_another_address() {
+        let folder = |files: &Files| files.keys().next().unwrap().clone();
+        let one = page(&root(), parts()).unwrap();
+        let mut changed = parts();
+        changed.insert("centrode_bg.wasm".into(), vec![1; 123]);
+        let other = page(&root(), changed).unwrap();
+        assert_ne!(folder(&one), folder(&other));
+        assert_eq!(folder(&one), folder(&page(&root(), parts()).unwrap()));
+    }
+}

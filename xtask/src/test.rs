@@ -1,0 +1,154 @@
+//! Every test, in stages; everything it needs is installed first.
+
+use crate::run::{cargo, run};
+use crate::tools::{self, WASM};
+use crate::{build, serve};
+use anyhow::{Result, bail};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Options of `cargo xtask test`.
+#[derive(Args)]
+pub struct Options {
+    /// Stages to run [default: all]
+    stages: Vec<Stage>,
+    /// Test the page that is fast to build instead of the published one
+    #[arg(long)]
+    dev: bool,
+    /// Arguments for the tests themselves, such as part of a test's name
+    #[arg(last = true)]
+    arguments: Vec<String>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
+enum Stage {
+    /// The code is formatted
+    Format,
+    /// No warning from clippy, natively and for the page
+    Lint,
+    /// No warning from the documentation
+    Doc,
+    /// The pure part alone: model, experiment and all that needs neither command nor interface
+    Pure,
+    /// Everything that runs natively: command, headless interface, the rules of the house
+    Native,
+    /// The page is built, its size is told
+    Page,
+    /// The built page in a real browser
+    Browser,
+}
+
+/// Runs the stages asked for, all of them even when one fails, and sums up.
+pub fn command(options: &Options) -> Result<()> {
+    let all = Stage::value_variants();
+    let wanted: Vec<Stage> =
+        all.iter().filter(|stage| options.stages.is_empty() || options.stages.contains(stage)).copied().collect();
+    let mut results: Vec<(Stage, Duration, Result<()>)> = Vec::new();
+    let mut dist = None;
+    for stage in wanted {
+        println!("\n── {} ──", name(stage));
+        let start = Instant::now();
+        let result = perform(stage, options, &mut dist);
+        let time = start.elapsed();
+        match &result {
+            Ok(()) => println!("── {}: ok, {:.1} s", name(stage), time.as_secs_f64()),
+            Err(error) => println!("── {}: FAILED: {error:#}", name(stage)),
+        }
+        results.push((stage, time, result));
+    }
+    println!("\nstage     result     time");
+    for (stage, time, result) in &results {
+        let word = if result.is_ok() { "ok" } else { "FAILED" };
+        println!("{:<9} {word:<6} {:>6.1} s", name(*stage), time.as_secs_f64());
+    }
+    let failed: Vec<String> =
+        results.iter().filter(|(_, _, result)| result.is_err()).map(|(stage, ..)| name(*stage)).collect();
+    if !failed.is_empty() {
+        bail!("failed: {}", failed.join(", "));
+    }
+    Ok(())
+}
+
+fn name(stage: Stage) -> String {
+    stage.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+}
+
+fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Result<()> {
+    match stage {
+        Stage::Format => {
+            tools::component("rustfmt", "fmt")?;
+            run(cargo().args(["fmt", "--all", "--check"]))
+        }
+        Stage::Lint => lint(),
+        Stage::Doc => doc(),
+        Stage::Pure => {
+            run(cargo().args(["test", "--package", "centrode", "--no-default-features", "--"]).args(&options.arguments))
+        }
+        Stage::Native => {
+            tools::software_gpu()?;
+            run(cargo().args(["test", "--workspace", "--all-features", "--"]).args(&options.arguments))
+        }
+        Stage::Page => page(options.dev, dist).map(drop),
+        Stage::Browser => {
+            let browser = tools::browser()?;
+            // Not at the root, so that an absolute address anywhere in the page shows.
+            let page = serve::background(&page(options.dev, dist)?, "/deep/path/")?;
+            run(cargo()
+                .args(["test", "--package", "centrode", "--all-features"])
+                .args(["--test", "browser", "--"])
+                .args(&options.arguments)
+                .env("CENTRODE_PAGE", page)
+                .env("CENTRODE_BROWSER", browser))
+        }
+    }
+}
+
+/// Builds the page once.
+fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
+    if let Some(dist) = dist {
+        return Ok(dist.clone());
+    }
+    let built = build::build(dev)?;
+    Ok(dist.insert(built).clone())
+}
+
+fn lint() -> Result<()> {
+    tools::component("clippy", "clippy")?;
+    tools::wasm_target()?;
+    run(cargo()
+        .args(["clippy", "--workspace", "--all-features", "--all-targets"])
+        .args(["--test", "browser"]) // it is no default target
+        .args(["--", "-D", "warnings"]))?;
+    run(cargo()
+        .args(["clippy", "--package", "centrode", "--lib", "--target", WASM])
+        .args(["--no-default-features", "--features", "app"])
+        .args(["--", "-D", "warnings"]))
+}
+
+fn doc() -> Result<()> {
+    run(cargo()
+        .args(["doc", "--workspace", "--all-features", "--no-deps"])
+        .arg("--document-private-items")
+        .env("RUSTDOCFLAGS", "-D warnings"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::Parser;
+
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        options: Options,
+    }
+
+    #[test]
+    fn stages_and_arguments_are_told_apart() {
+        let line = Line::try_parse_from(["test", "native", "browser", "--", "slider"]).unwrap();
+        assert_eq!(line.options.stages, [Stage::Native, Stage::Browser]);
+        assert_eq!(line.options.arguments, ["slider"]);
+        assert!(Line::try_parse_from(["test", "everything"]).is_err());
+    }
+}

@@ -1,0 +1,108 @@
+//! What the build and the tests need on a machine, installed when it is missing.
+
+use crate::run::{output, run};
+use anyhow::{Context, Result, bail};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The target of the page.
+pub const WASM: &str = "wasm32-unknown-unknown";
+
+/// Adds the wasm target to the toolchain when it is missing.
+pub fn wasm_target() -> Result<()> {
+    let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
+    if Path::new(sysroot.trim()).join("lib/rustlib").join(WASM).join("lib").is_dir() {
+        return Ok(());
+    }
+    run(Command::new("rustup").args(["target", "add", WASM]))
+        .context("the page needs Rust's wasm32-unknown-unknown target, and rustup could not add it")
+}
+
+/// Adds rustfmt or clippy to the toolchain when it is missing.
+pub fn component(name: &str, probe: &str) -> Result<()> {
+    let found = Command::new("cargo").args([probe, "--version"]).stdout(Stdio::null()).stderr(Stdio::null()).status();
+    if found.is_ok_and(|status| status.success()) {
+        return Ok(());
+    }
+    run(Command::new("rustup").args(["component", "add", name]))
+        .with_context(|| format!("the tests need {name}, and rustup could not add it"))
+}
+
+/// Finds a Chromium, or installs one.
+pub fn browser() -> Result<PathBuf> {
+    if let Some(path) = find_browser() {
+        return Ok(path);
+    }
+    install(&["chromium"]).context("the browser tests need Chromium or Chrome")?;
+    find_browser().context("Chromium was installed, but is not to be found on the PATH")
+}
+
+fn find_browser() -> Option<PathBuf> {
+    const NAMES: [&str; 5] = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
+    const MAC: [&str; 2] = [
+        "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
+        "/Applications/Chromium.app/Contents/MacOS/Chromium",
+    ];
+    if let Some(named) = std::env::var_os("CENTRODE_BROWSER") {
+        return Some(named.into());
+    }
+    let path = std::env::var_os("PATH")?;
+    std::env::split_paths(&path)
+        .flat_map(|folder| NAMES.map(|name| folder.join(name)))
+        .chain(MAC.map(PathBuf::from))
+        .find(|candidate| candidate.is_file())
+}
+
+/// A software Vulkan for machines without a GPU, so that wgpu draws in the headless interface tests.
+pub fn software_gpu() -> Result<()> {
+    // Elsewhere the system brings a driver of its own.
+    if !cfg!(target_os = "linux") || has_vulkan_driver() {
+        return Ok(());
+    }
+    install(&["mesa-vulkan-drivers"]).context("the interface tests need a Vulkan driver")
+}
+
+fn has_vulkan_driver() -> bool {
+    ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"]
+        .iter()
+        .filter_map(|folder| std::fs::read_dir(folder).ok())
+        .any(|mut entries| entries.next().is_some())
+}
+
+/// Installs Debian packages, as root or through sudo when that asks for no password.
+fn install(packages: &[&str]) -> Result<()> {
+    let list = packages.join(" ");
+    let refusal = format!("please install: {list} (on Debian: apt-get install {list})");
+    if !succeeds(Command::new("apt-get").arg("--version")) {
+        bail!("{refusal}");
+    }
+    let prefix: &[&str] = if output(Command::new("id").arg("-u"))?.trim() == "0" {
+        &[]
+    } else if succeeds(Command::new("sudo").args(["-n", "true"])) {
+        &["sudo", "-n"]
+    } else {
+        bail!("{refusal}");
+    };
+    println!("installing {list}");
+    let apt = |arguments: &[&str]| {
+        let words: Vec<&str> = prefix
+            .iter()
+            .chain(&["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "-q"])
+            .chain(arguments)
+            .copied()
+            .collect();
+        run(Command::new(words[0]).args(&words[1..]).stdin(Stdio::null()))
+    };
+    let mut install = vec!["install", "-y", "--no-install-recommends"];
+    install.extend(packages);
+    apt(&["update"]).and_then(|()| apt(&install)).context(refusal)
+}
+
+fn succeeds(command: &mut Command) -> bool {
+    command
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success())
+}

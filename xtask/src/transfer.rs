@@ -1,0 +1,50 @@
+//! How much a visitor downloads.
+
+use std::collections::BTreeMap;
+use std::thread;
+
+/// The page's whole transfer should stay under this.
+const AIM: f64 = 2.3e6;
+
+/// Prints every file's size as it is and brotli-compressed, and the total next to the aim.
+pub fn print(files: &BTreeMap<String, Vec<u8>>) {
+    let mut sizes: Vec<(&str, usize, usize)> = thread::scope(|scope| {
+        let jobs: Vec<_> = files
+            .iter()
+            .map(|(name, bytes)| scope.spawn(move || (name.as_str(), bytes.len(), compressed(bytes))))
+            .collect();
+        jobs.into_iter().map(|job| job.join().expect("compression does not panic")).collect()
+    });
+    sizes.sort_by_key(|size| std::cmp::Reverse(size.2));
+    println!("{:>10} {:>10}  transfer in bytes", "raw", "brotli");
+    for (name, raw, brotli) in &sizes {
+        println!("{raw:>10} {brotli:>10}  {name}");
+    }
+    let raw: usize = sizes.iter().map(|size| size.1).sum();
+    let brotli: usize = sizes.iter().map(|size| size.2).sum();
+    let verdict = if (brotli as f64) < AIM { "under" } else { "OVER" };
+    println!(
+        "{raw:>10} {brotli:>10}  the whole page: {:.2} MB, {verdict} the aim of {:.1} MB",
+        brotli as f64 / 1e6,
+        AIM / 1e6
+    );
+}
+
+/// Size after brotli at the level at which static hosts store files.
+fn compressed(bytes: &[u8]) -> usize {
+    let parameters = brotli::enc::BrotliEncoderParams { quality: 11, lgwin: 22, ..Default::default() };
+    let mut out = Vec::new();
+    brotli::BrotliCompress(&mut &bytes[..], &mut out, &parameters).expect("writing to memory does not fail");
+    out.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::compressed;
+
+    #[test]
+    fn compresses_what_repeats() {
+        assert!(compressed(&[7; 100_000]) < 100);
+        assert!(compressed(b"") < 10);
+    }
+}
