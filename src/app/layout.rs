@@ -62,11 +62,11 @@ impl Layout {
     #[must_use]
     pub fn new(page: Rect, sheet: f32) -> Self {
         let Vec2 { x: width, y: height } = page.size();
-        if height < 560.0 || (width < 1000.0 && height < 640.0) {
+        if height < 560.0 || (width < 1140.0 && height < 640.0) {
             if width < 560.0 { Self::phone(page, sheet) } else { Self::low(page, sheet) }
         } else if width <= 700.0 {
             Self::phone(page, sheet)
-        } else if width < 1100.0 {
+        } else if width < 1140.0 {
             Self::tablet(page)
         } else {
             Self::desk(page)
@@ -83,44 +83,26 @@ impl Layout {
         let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
         let readout = side.bottom((side.0.height() * 0.52).clamp(230.0, 330.0).min(side.0.height() - 120.0));
         Self {
-            title,
-            view: rest.0,
-            transport,
             controls: Some(controls),
-            tabbed: None,
             plane: Some(side.0),
             readout: Some(readout),
             plots: Some(plots),
-            sheet: false,
+            ..Self::plain(title, rest.0, transport)
         }
     }
 
-    /// Controls at the left; 3D, playback and the rest above each other.
+    /// Controls at the left; 3D, playback and tabs above each other.
     fn tablet(page: Rect) -> Self {
         let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
         let title = rest.top(46.0);
         let controls = rest.left(276.0);
-        let tall = page.height() >= 940.0;
-        let (mut plane, mut readout, mut plots, mut tabbed) = (None, None, None, None);
-        if tall {
-            plots = Some(rest.bottom(page.height() * 0.25));
-            let mut row = Cut(rest.bottom(264.0));
-            plane = Some(row.left(row.0.width() / 2.0 - GAP / 2.0));
-            readout = Some(row.0);
-        } else {
-            tabbed = Some(rest.bottom((page.height() * 0.42).max(290.0)));
-        }
+        let tabbed = rest.bottom((page.height() * 0.43).max(290.0));
         let transport = rest.bottom(if rest.0.width() < 560.0 { TALL } else { FLAT });
-        Self { title, view: rest.0, transport, controls: Some(controls), tabbed, plane, readout, plots, sheet: false }
+        Self { controls: Some(controls), tabbed: Some(tabbed), ..Self::plain(title, rest.0, transport) }
     }
 
-    /// 3D on top, tabs or the sheet below, playback under the thumb.
-    fn phone(page: Rect, sheet: f32) -> Self {
-        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
-        let title = rest.top(46.0);
-        let transport = rest.bottom(TALL);
-        let share = egui::lerp(0.52..=0.36, sheet);
-        let view = rest.top(rest.0.height() * share);
+    /// No more than title, 3D and playback.
+    fn plain(title: Rect, view: Rect, transport: Rect) -> Self {
         Self {
             title,
             view,
@@ -130,9 +112,18 @@ impl Layout {
             plane: None,
             readout: None,
             plots: None,
-            sheet: true,
+            sheet: false,
         }
-        .with_lower(rest.0, sheet)
+    }
+
+    /// 3D on top, tabs or the sheet below, playback under the thumb.
+    fn phone(page: Rect, sheet: f32) -> Self {
+        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
+        let title = rest.top(46.0);
+        let transport = rest.bottom(TALL);
+        let share = egui::lerp(0.52..=0.36, sheet);
+        let view = rest.top(rest.0.height() * share);
+        Self::plain(title, view, transport).with_lower(rest.0, sheet)
     }
 
     /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
@@ -141,22 +132,12 @@ impl Layout {
         let title = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
-        Self {
-            title,
-            view: rest.0,
-            transport,
-            controls: None,
-            tabbed: None,
-            plane: None,
-            readout: None,
-            plots: None,
-            sheet: true,
-        }
-        .with_lower(side, sheet)
+        Self::plain(title, rest.0, transport).with_lower(side, sheet)
     }
 
     fn with_lower(self, place: Rect, sheet: f32) -> Self {
-        if sheet > 0.5 { Self { controls: Some(place), ..self } } else { Self { tabbed: Some(place), ..self } }
+        let (controls, tabbed) = if sheet > 0.5 { (Some(place), None) } else { (None, Some(place)) };
+        Self { controls, tabbed, sheet: true, ..self }
     }
 
     /// Every rectangle there is.

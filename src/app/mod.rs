@@ -162,7 +162,10 @@ impl App {
 
     fn page(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {
         let theme = theme::Theme::of(ui);
-        let page = ui.max_rect();
+        let page = ui.ctx().content_rect();
+        let mut whole = ui.new_child(egui::UiBuilder::new().id_salt("page").max_rect(page));
+        whole.set_clip_rect(page);
+        let ui = &mut whole;
         ui.painter().rect_filled(page, 0.0, theme.surface);
         let sheet = match (self.host.prefers_reduced_motion, self.state.sheet) {
             (true, open) => f32::from(u8::from(open)),
@@ -186,7 +189,16 @@ impl App {
         });
         let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
             Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run)),
-            Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| plots::plots(ui, run, cursor, plots, out)),
+            Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
+                // Where they do not fit above each other they are scrolled.
+                let low = rect.width() < 796.0 && rect.height() < 430.0;
+                if low {
+                    let area = egui::ScrollArea::vertical().auto_shrink(false);
+                    area.show(ui, |ui| plots::plots(ui, run, cursor, plots, out));
+                } else {
+                    plots::plots(ui, run, cursor, plots, out);
+                }
+            }),
             Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| plane::plane(ui, run, cursor, out)),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {

@@ -27,26 +27,31 @@ pub enum Quantity {
     Count,
 }
 
-/// A unit and its size in SI; the first of a quantity's units is the one shown.
-type Unit = (&'static str, f64);
-
-const DEGREE: f64 = PI / 180.0;
+/// A unit: its name, and its size in SI as a numerator and a denominator, so that 6.5 mm is the double nearest 0.0065 m.
+struct Unit(&'static str, f64, f64);
 
 impl Quantity {
+    /// The first is the one shown.
+    #[rustfmt::skip]
     fn units(self) -> &'static [Unit] {
         match self {
-            Self::Length => &[("mm", 1e-3), ("µm", 1e-6), ("μm", 1e-6), ("um", 1e-6), ("cm", 1e-2), ("m", 1.0)],
-            Self::Angle => &[("°", DEGREE), ("deg", DEGREE), ("degrees", DEGREE), ("rad", 1.0), ("mrad", 1e-3)],
-            Self::Time => &[("s", 1.0), ("ms", 1e-3)],
-            Self::Ratio => &[("%", 1e-2)],
-            Self::Moment => {
-                &[("N·m", 1.0), ("Nm", 1.0), ("N m", 1.0), ("mN·m", 1e-3), ("mNm", 1e-3), ("N·mm", 1e-3), ("Nmm", 1e-3)]
-            }
-            Self::Force => &[("N", 1.0), ("mN", 1e-3)],
-            Self::Frequency => &[("Hz", 1.0), ("kHz", 1e3)],
-            Self::AngularSpeed => &[("°/s", DEGREE), ("deg/s", DEGREE), ("rad/s", 1.0)],
-            Self::Modulus => &[("GPa", 1e9), ("MPa", 1e6), ("Pa", 1.0)],
-            Self::Count => &[("", 1.0)],
+            Self::Length => &[
+                Unit("mm", 1.0, 1e3), Unit("µm", 1.0, 1e6), Unit("μm", 1.0, 1e6), Unit("um", 1.0, 1e6), Unit("cm", 1.0, 1e2), Unit("m", 1.0, 1.0),
+            ],
+            Self::Angle => &[
+                Unit("°", PI, 180.0), Unit("deg", PI, 180.0), Unit("degrees", PI, 180.0), Unit("rad", 1.0, 1.0), Unit("mrad", 1.0, 1e3),
+            ],
+            Self::Time => &[Unit("s", 1.0, 1.0), Unit("ms", 1.0, 1e3)],
+            Self::Ratio => &[Unit("%", 1.0, 1e2)],
+            Self::Moment => &[
+                Unit("N·m", 1.0, 1.0), Unit("Nm", 1.0, 1.0), Unit("N m", 1.0, 1.0),
+                Unit("mN·m", 1.0, 1e3), Unit("mNm", 1.0, 1e3), Unit("N·mm", 1.0, 1e3), Unit("Nmm", 1.0, 1e3),
+            ],
+            Self::Force => &[Unit("N", 1.0, 1.0), Unit("mN", 1.0, 1e3)],
+            Self::Frequency => &[Unit("Hz", 1.0, 1.0), Unit("kHz", 1e3, 1.0)],
+            Self::AngularSpeed => &[Unit("°/s", PI, 180.0), Unit("deg/s", PI, 180.0), Unit("rad/s", 1.0, 1.0)],
+            Self::Modulus => &[Unit("GPa", 1e9, 1.0), Unit("MPa", 1e6, 1.0), Unit("Pa", 1.0, 1.0)],
+            Self::Count => &[Unit("", 1.0, 1.0)],
         }
     }
 
@@ -59,14 +64,16 @@ impl Quantity {
     /// An SI value in the unit shown.
     #[must_use]
     pub fn shown(self, si: f64) -> f64 {
-        // Ten digits more than anyone types, so that 0.01° does not come back as 0.009999999999999998°.
-        round_to(si / self.units()[0].1, 12)
+        let Unit(_, over, under) = self.units()[0];
+        // More digits than anyone types, and 0.01° does not come back as 0.009999999999999998°.
+        round_to(si * under / over, 12)
     }
 
     /// A value in the unit shown, in SI.
     #[must_use]
     pub fn si(self, shown: f64) -> f64 {
-        shown * self.units()[0].1
+        let Unit(_, over, under) = self.units()[0];
+        shown * over / under
     }
 
     /// Reads what a person typed, with or without unit; the result is in the unit shown.
@@ -82,18 +89,20 @@ impl Quantity {
         if unit.is_empty() {
             return Ok(number);
         }
-        let factor = self.units().iter().find(|(name, _)| *name == unit).map(|(_, factor)| *factor);
-        let factor = factor.ok_or_else(|| match self.unit() {
-            "" => format!("“{}”: a plain number is expected, without unit", shorten(text)),
-            known => format!("“{}”: {known} is expected, not “{}”", shorten(text), shorten(unit)),
-        })?;
-        let own = self.units()[0].1;
-        #[allow(clippy::float_cmp)] // The very same constant, or another unit.
-        if factor == own { Ok(number) } else { Ok(round_to(number * factor / own, 12)) }
+        let known = self.units().iter().position(|Unit(name, ..)| *name == unit);
+        match (known, self.unit()) {
+            (Some(0), _) => Ok(number),
+            (Some(other), _) => {
+                let Unit(_, over, under) = self.units()[other];
+                Ok(self.shown(number * over / under))
+            }
+            (None, "") => Err(format!("“{}”: a plain number is expected, without unit", shorten(text))),
+            (None, own) => Err(format!("“{}”: {own} is expected, not “{}”", shorten(text), shorten(unit))),
+        }
     }
 }
 
-/// A number with its unit, `decimals` digits after the point and more only where the value has them.
+/// A number with `decimals` digits after the point and more only where the value has them.
 #[must_use]
 pub fn number(value: f64, decimals: usize) -> String {
     if !value.is_finite() {

@@ -1,7 +1,7 @@
 //! What a run came to, in words and figures.
 
-use crate::app::quantity::fixed;
-use crate::experiment::scenario::Place;
+use super::quantity::fixed;
+use crate::experiment::scenario::{Place, Start};
 use crate::experiment::{Crossing, Method, Run};
 
 /// What is known at the cursor.
@@ -50,6 +50,15 @@ pub struct Figure {
     pub unit: &'static str,
 }
 
+/// When the beam is met, s: the time asked for rather than the first sample after it.
+fn contact_time(run: &Run) -> Option<f64> {
+    let (first, scenario) = (run.contact_time?, run.plan.scenario());
+    match scenario.contact.start {
+        Start::Time(asked) if asked <= first && first - asked < 1.5 / scenario.loop_rate => Some(asked),
+        _ => Some(first),
+    }
+}
+
 /// Where the beam is, with its preposition.
 fn place(run: &Run) -> String {
     match run.plan.scenario().contact.place {
@@ -66,7 +75,7 @@ fn seconds(duration: f64) -> String {
 /// What the centrode's deviation made of the run.
 fn centrode(run: &Run) -> String {
     let xi2 = run.plan.scenario().detection.xi2.value();
-    match (run.contact_time, run.detection) {
+    match (contact_time(run), run.detection) {
         (None, None) if run.plan.contact().is_some() => {
             "The motion never reaches the beam, and nothing was noticed.".into()
         }
@@ -117,7 +126,7 @@ fn joint_forces(run: &Run) -> String {
     if run.plan.scenario().detection.xi1.value().is_none() {
         return "Joint forces were not looked at: ξ1 is off.".into();
     }
-    match (joint_alarm(run), run.contact_time) {
+    match (joint_alarm(run), contact_time(run)) {
         (None, _) => "Joint forces raised no alarm.".into(),
         (Some(alarm), Some(contact)) if alarm.time >= contact => {
             format!("Joint forces raised theirs {} after the contact.", seconds(alarm.time - contact))
@@ -147,7 +156,7 @@ pub fn words(run: &Run) -> String {
 #[must_use]
 pub fn figures(run: &Run) -> Vec<Figure> {
     let detection = run.detection;
-    let contact = run.contact_time.unwrap_or(f64::NAN);
+    let contact = contact_time(run).unwrap_or(f64::NAN);
     let detected = detection.map_or(f64::NAN, |detection| detection.time);
     let estimate = detection.map_or(f64::NAN, |detection| detection.location * 1e3);
     let truth = match run.contact_time {

@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
 use super::row::{self, Context};
 use crate::app::command::Command;
 use crate::app::control::Group;
-use crate::app::fonts;
 use crate::app::state::State;
 use crate::app::table::GROUPS;
 use crate::app::theme::Theme;
 use crate::app::widgets::{icon, text};
+use crate::app::{fonts, layout};
 use crate::experiment::Scenario;
 
 /// What the panel needs to know.
@@ -28,15 +28,18 @@ pub struct Inputs<'a> {
 
 /// Shows the controls.
 pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        Frame::new().inner_margin(Margin { left: 16, right: 16, top: 6, bottom: 16 }).show(ui, |ui| {
+    let (scrolled, foot) = ui.max_rect().split_top_bottom_at_y(ui.max_rect().bottom() - 52.0);
+    layout::inside(ui, "reset", foot.shrink2(vec2(16.0, 10.0)), |ui| reset_all(ui, inputs, out));
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(scrolled));
+    ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
+        Frame::new().inner_margin(Margin { left: 16, right: 16, top: 6, bottom: 6 }).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
             if let Some(refusal) = &inputs.refusal {
                 row::refusal(ui, &format!("{refusal}. What is shown is the last run that was possible."));
             }
             for group in GROUPS {
                 show_group(ui, group, inputs, out);
             }
-            reset_all(ui, inputs, out);
         });
     });
 }
@@ -44,7 +47,7 @@ pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
 fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let open = !inputs.state.folded.contains(group.name);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 29.0), Sense::click());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), open, group.name));
     let shown = ui.ctx().animate_bool(response.id, open);
@@ -73,12 +76,11 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
 }
 
 fn reset_all(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
-    ui.add_space(10.0);
     let changed = inputs.state.scenario != *inputs.base;
     let label = egui::RichText::new("Reset all").font(if changed { fonts::strong(13.0) } else { fonts::regular(13.0) });
-    let button = egui::Button::new(label).min_size(vec2(ui.available_width(), 32.0));
+    let button = egui::Button::new(label);
     let tip = format!("Restore the scenario of the preset “{}”", super::title::name(inputs.state.preset()));
-    if ui.add(button).on_hover_text(tip).clicked() {
+    if ui.centered_and_justified(|ui| ui.add(button)).inner.on_hover_text(tip).clicked() {
         out.push(Command::ResetAll);
     }
 }

@@ -50,8 +50,9 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let screen = ui.ctx().content_rect();
     let modal = Modal::new(Id::unique("help")).backdrop_color(egui::Color32::from_black_alpha(110));
-    let shown = modal.show(ui.ctx(), |ui| {
-        ui.set_width((screen.width() - 64.0).min(560.0));
+    let frame = egui::Frame::popup(ui.style()).inner_margin(20).corner_radius(12);
+    let shown = modal.frame(frame).show(ui.ctx(), |ui| {
+        ui.set_width((screen.width() - 72.0).min(560.0));
         let (bar, _) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), egui::Sense::hover());
         crate::app::widgets::text::paint(
             ui,
@@ -64,26 +65,30 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
         let corner = egui::Rect::from_center_size(bar.right_center() - vec2(15.0, 0.0), vec2(32.0, 32.0));
         let closed = icon::button(ui, corner, Icon::Close, "Close help", Look::Plain).clicked();
         ui.add_space(6.0);
-        ScrollArea::vertical().max_height(screen.height() - 150.0).show(ui, |ui| {
-            for (title, body) in PARAGRAPHS {
-                ui.add_space(6.0);
-                ui.label(RichText::new(*title).font(fonts::strong(13.5)).color(theme.ink));
-                ui.label(
-                    RichText::new(*body)
-                        .size(13.5)
-                        .color(theme.ink.lerp_to_gamma(theme.dim, 0.4))
-                        .line_height(Some(20.0)),
-                );
-            }
-            ui.add_space(10.0);
-            egui::Grid::new("keys").spacing(vec2(20.0, 6.0)).show(ui, |ui| {
-                for (key, what) in KEYS {
-                    ui.label(RichText::new(*key).font(fonts::strong(13.0)).color(theme.ink));
-                    ui.label(RichText::new(*what).color(theme.dim));
-                    ui.end_row();
+        ScrollArea::vertical().max_height(screen.height() - 140.0).min_scrolled_height(screen.height() - 140.0).show(
+            ui,
+            |ui| {
+                ui.set_width(ui.available_width() - 8.0);
+                for (title, body) in PARAGRAPHS {
+                    ui.add_space(6.0);
+                    ui.label(RichText::new(*title).font(fonts::strong(13.5)).color(theme.ink));
+                    ui.label(
+                        RichText::new(*body)
+                            .size(13.5)
+                            .color(theme.ink.lerp_to_gamma(theme.dim, 0.4))
+                            .line_height(Some(20.0)),
+                    );
                 }
-            });
-        });
+                ui.add_space(10.0);
+                egui::Grid::new("keys").spacing(vec2(20.0, 6.0)).show(ui, |ui| {
+                    for (key, what) in KEYS {
+                        ui.label(RichText::new(*key).font(fonts::strong(13.0)).color(theme.ink));
+                        ui.label(RichText::new(*what).color(theme.dim));
+                        ui.end_row();
+                    }
+                });
+            },
+        );
         closed
     });
     if shown.inner || shown.should_close() {

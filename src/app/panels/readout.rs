@@ -1,6 +1,6 @@
 //! What the run came to: a sentence, and figures in a table.
 
-use egui::{Align2, RichText, ScrollArea, Sense, Ui, vec2};
+use egui::{Align2, ScrollArea, Sense, Ui, vec2};
 
 use crate::app::fonts;
 use crate::app::story::{self, Figure};
@@ -14,7 +14,7 @@ pub fn readout(ui: &mut Ui, run: &Run) {
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            ui.add(egui::Label::new(RichText::new(story::words(run)).size(13.5).color(theme.ink)).wrap());
+            ui.add(egui::Label::new(text::rich(&story::words(run), 13.5, theme.ink)).wrap());
             ui.add_space(10.0);
             let figures = story::figures(run);
             let wide = ui.available_width() > 430.0;
@@ -39,7 +39,7 @@ fn line(ui: &mut Ui, rect: egui::Rect, figure: &Figure, theme: &Theme) {
         _ if figure.value == "–" => theme.dim,
         _ => theme.ink,
     };
-    text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, figure.name, fonts::regular(13.0), theme.dim);
+    text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, figure.name, 13.0, theme.dim);
     let unit = rect.right_center() - vec2(24.0, 0.0);
     text::paint(ui, unit, Align2::LEFT_CENTER, figure.unit, fonts::regular(12.5), theme.dim);
     text::paint(ui, unit - vec2(5.0, 0.0), Align2::RIGHT_CENTER, &figure.value, fonts::strong(13.5), ink);

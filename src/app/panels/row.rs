@@ -4,7 +4,6 @@ use egui::{Align2, Rect, Sense, Ui, vec2};
 
 use crate::app::command::Command;
 use crate::app::control::{Choice, Control};
-use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::field::{Field, field};
 use crate::app::widgets::icon::{self, Icon};
@@ -16,7 +15,7 @@ use crate::app::widgets::toggle::toggle;
 use crate::experiment::Scenario;
 
 const LINE: f32 = 24.0;
-const RAIL: f32 = 20.0;
+const RAIL: f32 = 19.0;
 const FIELD: f32 = 84.0;
 
 /// What a row needs to know besides its control.
@@ -35,7 +34,7 @@ pub struct Context<'a> {
 fn heading(ui: &mut Ui, rect: Rect, label: &str, tip: &str, differs: bool) -> bool {
     let theme = Theme::of(ui);
     let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
-    let drawn = text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, label, fonts::regular(13.0), ink);
+    let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
     ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", label)), Sense::hover()).on_hover_text(tip);
     if !differs {
         return false;
@@ -95,7 +94,7 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     if let Some(note) = note {
         refusal(ui, note);
     }
-    ui.add_space(2.0);
+    ui.add_space(5.0);
 }
 
 /// Shows a choice's row.
@@ -113,7 +112,7 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     if let Some(note) = context.note {
         refusal(ui, note);
     }
-    ui.add_space(4.0);
+    ui.add_space(6.0);
 }
 
 /// Says what was refused.

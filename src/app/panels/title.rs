@@ -1,6 +1,6 @@
 //! The title bar: name, presets, theme, help.
 
-use egui::{Align, Align2, ComboBox, Layout, Rect, RichText, Ui, UiBuilder, vec2};
+use egui::{Align2, CursorIcon, Popup, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
 use crate::app::command::Command;
 use crate::app::fonts;
@@ -58,8 +58,7 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
 
     let room = (right.x + 10.0 - left.x).clamp(80.0, 230.0);
     let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
-    let mut child = ui.new_child(UiBuilder::new().max_rect(place).layout(Layout::left_to_right(Align::Center)));
-    presets(&mut child, state, out);
+    presets(ui, place, state, out);
 }
 
 /// The mark: an arc and the point it turns about.
@@ -68,22 +67,38 @@ fn mark(ui: &Ui, center: egui::Pos2, theme: &Theme) {
     let points = (0..=20)
         .map(|i| hub + 12.0 * egui::Vec2::angled(std::f32::consts::PI * (0.94 + 0.62 * i as f32 / 20.0)))
         .collect();
-    ui.painter().line(points, egui::Stroke::new(2.6, theme.ink));
+    ui.painter().line(points, Stroke::new(2.6, theme.ink));
     ui.painter().circle_filled(hub, 2.8, theme.accent);
 }
 
-fn presets(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
+fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let chosen = state.preset();
-    let width = ui.available_width();
-    let menu = ui.ctx().content_rect().width().min(420.0) - 32.0;
-    let combo = ComboBox::from_id_salt("preset")
-        .width(width)
-        .height(600.0)
-        .truncate()
-        .selected_text(RichText::new(name(chosen)).font(fonts::strong(13.0)))
-        .show_ui(ui, |ui| {
-            ui.set_width(menu);
+    let title = name(chosen);
+    let response =
+        ui.interact(rect, ui.make_persistent_id("preset"), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, ui.is_enabled(), "Preset"));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(title.as_str()));
+    let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
+    let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
+    let edge = if response.has_focus() { theme.accent } else { theme.faint };
+    ui.painter().rect(rect, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
+    let word = rect.left_center() + vec2(12.0, 0.0);
+    ui.painter_at(rect.with_max_x(rect.right() - 24.0)).text(
+        word,
+        Align2::LEFT_CENTER,
+        &title,
+        fonts::strong(13.0),
+        theme.ink,
+    );
+    icon::chevron(ui.painter(), rect.right_center() - vec2(16.0, 0.0), 1.0, theme.dim);
+
+    let screen = ui.ctx().content_rect();
+    let width = (screen.width() - 40.0).min(420.0);
+    Popup::menu(&response).accessible_name("Presets").width(width).show(|ui| {
+        let height = screen.bottom() - rect.bottom() - 40.0;
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            ui.set_width(width);
             ui.spacing_mut().item_spacing.y = 2.0;
             for preset in PRESETS {
                 if item(ui, preset, std::ptr::eq(preset, chosen), &theme) {
@@ -92,7 +107,10 @@ fn presets(ui: &mut Ui, state: &State, out: &mut Vec<Command>) {
                 }
             }
         });
-    combo.response.accessible_name("Preset").on_hover_text(chosen.summary());
+    });
+    if !Popup::is_any_open(ui.ctx()) {
+        response.on_hover_text(chosen.summary());
+    }
 }
 
 /// A preset with what it shows; returns whether it was clicked.
@@ -105,8 +123,8 @@ fn item(ui: &mut Ui, preset: &Preset, chosen: bool, theme: &Theme) -> bool {
     job.append(&format!("\n{}", preset.summary()), 0.0, format(fonts::regular(12.0), theme.dim));
     let galley = ui.painter().layout_job(job);
     let size = vec2(ui.available_width(), galley.size().y + 12.0);
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::click());
-    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, ui.is_enabled(), chosen, &title));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, ui.is_enabled(), chosen, &title));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }

@@ -61,7 +61,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
     let mut right = rect.right() - if narrow { 6.0 } else { 10.0 };
     right -= size;
     let look = if state.looping { Look::Lit } else { Look::Plain };
-    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(size - 4.0, size - 4.0));
+    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(34.0, 34.0));
     if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
         out.push(Command::ToggleLoop);
     }

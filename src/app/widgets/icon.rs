@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 
 use egui::{
     Align2, Color32, CursorIcon, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2,
-    WidgetInfo, pos2, vec2,
+    WidgetInfo, lerp, pos2, vec2,
 };
 
 use crate::app::fonts;
@@ -120,7 +120,14 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             triangle(0.6, -5.0, 4.4);
             triangle(6.2, -5.0, 4.4);
         }
-        Icon::Loop => turn(painter, center, 5.2 * scale, -0.25 * PI, 1.5 * PI, stroke),
+        Icon::Loop => {
+            for side in [1.0, -1.0] {
+                let way = [(-6.0, 0.4), (-6.0, -1.4), (-5.1, -3.3), (-3.4, -4.0), (3.2, -4.0)];
+                painter.line(way.map(|(x, y)| p(side * x, side * y)).to_vec(), stroke);
+                let head = [(2.8, -7.0), (6.2, -4.0), (2.8, -1.0)].map(|(x, y)| p(side * x, side * y));
+                painter.add(Shape::convex_polygon(head.to_vec(), ink, Stroke::NONE));
+            }
+        }
         Icon::Reset => turn(painter, center, 4.4 * scale, 1.25 * PI, -1.5 * PI, Stroke::new(1.4 * scale, ink)),
         Icon::System => {
             painter.circle_stroke(center, 5.8 * scale, stroke);
@@ -135,20 +142,14 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             }
         }
         Icon::Dark => {
-            // A disk's edge, and back along the edge of the disk that covers it.
-            let outer = (0..=24).map(|i| Vec2::angled(-0.30 * PI + 1.6 * PI * i as f32 / 24.0 + 0.2 * PI) * 6.0);
-            let points: Vec<Pos2> = outer.map(|v| center + v * scale).collect();
-            let (first, last) = (points[0], points[points.len() - 1]);
-            let inner = (1..16).map(|i| {
-                let t = i as f32 / 16.0;
-                let straight = last + (first - last) * t;
-                let sag = (center - Pos2::lerp(&last, first, 0.5)) * 0.9;
-                straight + sag * (t * PI).sin()
-            });
-            let mut closed = points.clone();
-            closed.extend(inner);
-            closed.push(first);
-            painter.line(closed, Stroke::new(1.5 * scale, ink));
+            // The edge of a disk, and back along the edge of a smaller one that covers its upper right.
+            let arc = |hub: Pos2, radius: f32, from: f32, to: f32| {
+                (0..=16).map(move |i| hub + radius * Vec2::angled(lerp(from..=to, i as f32 / 16.0).to_radians()))
+            };
+            let (outer, inner) = (5.8 * scale, 5.0 * scale);
+            let cover = p(2.9, -2.9);
+            let points = arc(center, outer, 13.0, 257.0).chain(arc(cover, inner, 213.0, 57.0)).collect();
+            painter.add(Shape::closed_line(points, stroke));
         }
         Icon::Help => {
             painter.text(center, Align2::CENTER_CENTER, "?", fonts::strong(15.0 * scale), ink);

@@ -44,7 +44,7 @@ impl Rail {
             Scale::Linear(step) => snapped(low + (high - low) * place, step),
             Scale::Whole | Scale::Stops => (low + (high - low) * place).round(),
         };
-        value.clamp(low.min(high), high.max(low))
+        if value.is_nan() { low } else { value.clamp(low.min(high), high.max(low)) }
     }
 
     /// The value this many steps further.
@@ -60,7 +60,7 @@ impl Rail {
                 if self.scale == Scale::LogWhole && stuck { value + steps.signum() } else { next }
             }
         };
-        further.clamp(low.min(high), high.max(low))
+        if further.is_nan() { low } else { further.clamp(low.min(high), high.max(low)) }
     }
 }
 

@@ -136,8 +136,9 @@ pub fn slider(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option
     let bar = |from: f32, to: f32, color| {
         painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5), 1.5, color)
     };
-    bar(rect.left() + 2.0, rect.right() - 2.0, theme.faint);
-    let origin = at(rect, slider.rail.place(if slider.rail.range.0 < 0.0 { 0.0 } else { slider.rail.range.0 }));
+    bar(rect.left(), rect.right(), theme.faint);
+    let two_sided = slider.rail.range.0 < 0.0;
+    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { rect.left() };
     let filled = if slider.on { theme.accent } else { theme.dim.gamma_multiply(0.5) };
     bar(origin.min(x), origin.max(x), filled);
     if slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0 {
