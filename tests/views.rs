@@ -233,10 +233,10 @@ fn both_views_draw_in_every_size_and_theme() {
 fn what_a_frame_costs() {
     let mut page = Page::new("bench", 6.9);
     let context = egui::Context::default();
-    let mut took = [std::time::Duration::ZERO; 2];
     const FRAMES: u32 = 200;
+    let mut took = [std::time::Duration::ZERO; 2];
     for _ in 0..FRAMES {
-        let _ = context.run_ui(egui::RawInput::default(), |ui| {
+        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
             let mut out = Vec::new();
             let start = std::time::Instant::now();
             ui.allocate_ui(vec2(1200.0, 240.0), |ui| plots(ui, &page.run, page.cursor, &mut page.state, &mut out));
@@ -245,6 +245,7 @@ fn what_a_frame_costs() {
             ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &page.run, page.cursor, &mut out));
             took[1] += start.elapsed();
         });
+        output.textures_delta.clear();
     }
     println!("three plots {:?}, plane {:?} per frame", took[0] / FRAMES, took[1] / FRAMES);
 }
@@ -277,7 +278,10 @@ fn the_plane_fits_in_a_low_place() {
         .with_theme(egui::Theme::Light)
         .with_pixels_per_point(2.0)
         .wgpu()
-        .build_ui_state(|ui, page: &mut Page| plane(ui, &page.run, page.cursor, &mut page.log), Page::new("bench", 7.1));
+        .build_ui_state(
+            |ui, page: &mut Page| plane(ui, &page.run, page.cursor, &mut page.log),
+            Page::new("bench", 7.1),
+        );
     harness.run();
     let rect = harness.get_by_label_contains("Bending plane at").rect();
     assert!(rect.height() > 80.0 && rect.width() > 100.0 && rect.right() < 200.0, "{rect:?}");

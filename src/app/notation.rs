@@ -14,7 +14,8 @@ pub fn job(text: &str, size: f32, color: Color32) -> LayoutJob {
 
 /// Adds text to a job, as [`job`] writes it.
 pub fn append(job: &mut LayoutJob, text: &str, size: f32, color: Color32) {
-    let format = |family, size, valign| TextFormat { font_id: FontId::new(size, family), color, valign, ..Default::default() };
+    let format =
+        |family, size, valign| TextFormat { font_id: FontId::new(size, family), color, valign, ..Default::default() };
     let body = |plain: &mut String, job: &mut LayoutJob| {
         if !plain.is_empty() {
             job.append(plain, 0.0, format(FontFamily::Proportional, size, Align::Center));
@@ -93,7 +94,10 @@ mod tests {
         let job = job("‖c_m − c_s‖ (mm)", 12.0, Color32::WHITE);
         assert_eq!(job.text, "‖cm − cs‖ (mm)");
         let sizes: Vec<f32> = job.sections.iter().map(|section| section.format.font_id.size).collect();
-        assert!(sizes.iter().any(|&size| size < 10.0) && sizes.iter().filter(|&&size| size == 12.0).count() >= 4, "{sizes:?}");
+        assert!(
+            sizes.iter().any(|&size| size < 10.0) && sizes.iter().filter(|&&size| size == 12.0).count() >= 4,
+            "{sizes:?}"
+        );
     }
 
     #[test]

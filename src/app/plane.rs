@@ -21,6 +21,8 @@ const TEXT: f32 = 12.5;
 const SMALL: f32 = 10.5;
 const GUTTER: f32 = 30.0;
 const TICKS: f32 = 18.0;
+/// Points per mm below which marks and lines become smaller.
+const USUAL: f32 = 6.5;
 /// A mark can be pointed at from this far, points.
 const REACH: f32 = 10.0;
 
@@ -56,7 +58,8 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     for (marks, least) in [(&mut loci.model, 8.5), (&mut loci.constrained, 8.5), (&mut loci.sensor, 3.0)] {
         *marks = thinned(marks, least / f64::from(axes.scale));
     }
-    let view = View { run, track, theme, cursor, axes, data, loci };
+    let size = (axes.scale / USUAL).clamp(0.6, 1.0);
+    let view = View { run, track, theme, cursor, axes, data, loci, size };
 
     let response = ui.interact(data, ui.scope_id().with("bending plane"), Sense::CLICK);
     let deviation = run.sample_at(cursor).judgement.deviation * 1e3;
@@ -149,6 +152,8 @@ struct View<'a> {
     axes: Axes,
     data: Rect,
     loci: Loci,
+    /// Size of marks and lines against the usual.
+    size: f32,
 }
 
 impl View<'_> {
@@ -193,9 +198,12 @@ impl View<'_> {
             painter.line(side, Stroke::new(1.0, theme.robot.gamma_multiply(0.55)));
         }
         for ends in &robot.disks {
-            painter.line_segment(ends.map(|end| self.axes.at(end)), Stroke::new(3.0, theme.robot.gamma_multiply(0.8)));
+            painter.line_segment(
+                ends.map(|end| self.axes.at(end)),
+                Stroke::new(3.0 * self.size, theme.robot.gamma_multiply(0.8)),
+            );
         }
-        painter.line(self.line(&robot.backbone), Stroke::new(3.0, theme.robot));
+        painter.line(self.line(&robot.backbone), Stroke::new(3.0 * self.size, theme.robot));
     }
 
     /// The loci over the whole motion; the sensor's up to now.
@@ -204,7 +212,7 @@ impl View<'_> {
             let later = if shown.time > self.cursor { 0.45 } else { 1.0 };
             let at = self.axes.at(shown.at);
             let size = if form == Form::Dot { 0.8 } else { 0.95 };
-            mark(painter, at, form, size, color.gamma_multiply(later), &self.theme);
+            mark(painter, at, form, size * self.size, color.gamma_multiply(later), &self.theme);
         }
     }
 
@@ -245,7 +253,7 @@ impl View<'_> {
         let sensor = self.track.flat(&sample.judgement.sensor_centrode);
         let finite = |at: Flat| at.iter().all(|x| x.is_finite());
         if let Some(held) = self.track.constrained_at(self.cursor).filter(|&at| finite(at)) {
-            mark(painter, self.axes.at(held), Form::Circle, 1.6, theme.constrained, theme);
+            mark(painter, self.axes.at(held), Form::Circle, 1.6 * self.size, theme.constrained, theme);
         }
         if finite(model) && finite(sensor) {
             let settings = &self.run.plan.scenario().detection;
@@ -256,16 +264,16 @@ impl View<'_> {
             self.deviation(painter, ends, sample.judgement.deviation * 1e3, color);
         }
         if finite(model) {
-            mark(painter, self.axes.at(model), Form::Triangle, 1.7, theme.model, theme);
+            mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
         }
         if finite(sensor) {
-            mark(painter, self.axes.at(sensor), Form::Dot, 2.2, theme.sensor, theme);
+            mark(painter, self.axes.at(sensor), Form::Dot, 2.2 * self.size, theme.sensor, theme);
         }
     }
 
     fn deviation(&self, painter: &Painter, ends: [Pos2; 2], value: f64, color: Color32) {
         let text = format!("{} mm", number(value, 2));
-        let galley = painter.layout_job(job(&text, TEXT, self.theme.ink));
+        let galley = painter.layout_job(job(&text, TEXT - 1.0, self.theme.ink));
         let middle = self.data.shrink(8.0).clamp(ends[0] + 0.5 * (ends[1] - ends[0]));
         let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
         let robot = self.track.robot(&self.track.truth(self.cursor));
@@ -287,9 +295,9 @@ impl View<'_> {
         let at = self.axes.at(self.track.place(&shape, detection.location));
         if let Some(contact) = self.run.plan.contact() {
             let truth = self.axes.at(self.track.place(&shape, contact.arc_length));
-            painter.circle(truth, 4.5, theme.obstacle, Stroke::new(1.5, theme.panel));
+            painter.circle(truth, 4.5 * self.size, theme.obstacle, Stroke::new(1.5, theme.panel));
         }
-        mark(painter, at, Form::Diamond, 1.6, theme.detection, theme);
+        mark(painter, at, Form::Diamond, 1.6 * self.size, theme.detection, theme);
         // In the corner that is free: beside the backbone it would cover what it points at.
         let mut text = format!("estimate {} mm", number(detection.location * 1e3, 1));
         if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time.is_some()) {

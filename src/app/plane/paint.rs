@@ -124,7 +124,16 @@ pub fn place(at: Pos2, size: Vec2, bounds: Rect, in_the_way: &[Pos2]) -> Rect {
     let mut best = Rect::from_center_size(at, size);
     let mut least = usize::MAX;
     for gap in [12.0, 26.0, 44.0] {
-        for direction in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, -1.0), vec2(0.0, 1.0), vec2(0.8, -0.8), vec2(-0.8, 0.8), vec2(0.8, 0.8), vec2(-0.8, -0.8)] {
+        for direction in [
+            vec2(1.0, 0.0),
+            vec2(-1.0, 0.0),
+            vec2(0.0, -1.0),
+            vec2(0.0, 1.0),
+            vec2(0.8, -0.8),
+            vec2(-0.8, 0.8),
+            vec2(0.8, 0.8),
+            vec2(-0.8, -0.8),
+        ] {
             let center = at + direction * (0.5 * size + Vec2::splat(gap));
             let rect = Rect::from_center_size(center, size);
             if !bounds.contains_rect(rect) {

@@ -98,7 +98,11 @@ impl Steps {
             return step;
         }
         let power = 10f64.powf(least.log10().floor());
-        [1.0, 2.0, 5.0, 10.0].map(|m| m * power).into_iter().find(|&step| step >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
+        [1.0, 2.0, 5.0, 10.0]
+            .map(|m| m * power)
+            .into_iter()
+            .find(|&step| step >= least * (1.0 - 1e-9))
+            .unwrap_or(10.0 * power)
     }
 }
 

@@ -62,10 +62,8 @@ impl Frame {
     /// Divides `outer`; `labelled` leaves room for the time axis.
     pub fn new(outer: Rect, run: &Run, labelled: bool, theme: Theme, pixels_per_point: f32) -> Self {
         let bottom = outer.bottom() - if labelled { TIME_LABELS } else { 5.0 };
-        let data = Rect::from_min_max(
-            pos2(outer.left() + GUTTER, outer.top() + TITLE),
-            pos2(outer.right() - RIGHT, bottom),
-        );
+        let data =
+            Rect::from_min_max(pos2(outer.left() + GUTTER, outer.top() + TITLE), pos2(outer.right() - RIGHT, bottom));
         let time = Axis::new([0.0, end(run)], [data.left(), data.right()]);
         Self { outer, data, time, theme, labelled, pixel: 1.0 / pixels_per_point }
     }

@@ -143,12 +143,12 @@ impl View<'_> {
             }
         }
         let Some((_, crossing, at)) = near else { return false };
-            let value = number(crossing.value * judged.scale, judged.decimals);
-            let lines = vec![
-                job(&format!("{} crosses its threshold", judged.name), TEXT - 1.0, theme.ink),
-                job(&format!("{}, {value} {}", Frame::clock(crossing.time), judged.unit), TEXT - 1.0, theme.dim),
-            ];
-            note(painter, theme, at, self.frame.data, lines);
+        let value = number(crossing.value * judged.scale, judged.decimals);
+        let lines = vec![
+            job(&format!("{} crosses its threshold", judged.name), TEXT - 1.0, theme.ink),
+            job(&format!("{}, {value} {}", Frame::clock(crossing.time), judged.unit), TEXT - 1.0, theme.dim),
+        ];
+        note(painter, theme, at, self.frame.data, lines);
         true
     }
 }

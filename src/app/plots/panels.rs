@@ -29,15 +29,23 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
     let color = view.frame.theme.sensor;
     let value = |sample: &Sample| sample.judgement.deviation * FCD.scale;
     let least = settings.min_speed;
-    judging(ui, view, settings.xi2, 0.007, |sample| sample.judgement.speed > least, value, Shown {
-        judged: FCD,
-        symbol: "ξ2",
-        color,
-        long: "Centrode deviation ‖c_m − c_s‖ (mm)",
-        short: "‖c_m − c_s‖ (mm)",
-        label: "Plot of the centrode deviation over time",
-        others: &[],
-    });
+    judging(
+        ui,
+        view,
+        settings.xi2,
+        0.007,
+        |sample| sample.judgement.speed > least,
+        value,
+        Shown {
+            judged: FCD,
+            symbol: "ξ2",
+            color,
+            long: "Centrode deviation ‖c_m − c_s‖ (mm)",
+            short: "‖c_m − c_s‖ (mm)",
+            label: "Plot of the centrode deviation over time",
+            others: &[],
+        },
+    );
 }
 
 /// Θ with ξ1, and both bounds ε_c.
@@ -46,28 +54,36 @@ pub fn force(ui: &mut Ui, view: &mut View<'_>) {
     let color = force_color(&view.frame.theme);
     let value = |sample: &Sample| sample.judgement.residual * JFD.scale;
     let dim = view.frame.theme.dim;
-    judging(ui, view, settings.xi1, 0.03, |_| true, value, Shown {
-        judged: JFD,
-        symbol: "ξ1",
-        color,
-        long: "Joint force deviation Θ (mN·m)",
-        short: "Θ (mN·m)",
-        label: "Plot of the joint force deviation over time",
-        others: &[
-            Other {
-                name: "ε_c",
-                value: |sample| sample.judgement.common_bound * JFD.scale,
-                color: dim,
-                style: Style::Thin,
-            },
-            Other {
-                name: "ε_c indep.",
-                value: |sample| sample.judgement.independent_bound * JFD.scale,
-                color: dim,
-                style: Style::Dashed,
-            },
-        ],
-    });
+    judging(
+        ui,
+        view,
+        settings.xi1,
+        0.03,
+        |_| true,
+        value,
+        Shown {
+            judged: JFD,
+            symbol: "ξ1",
+            color,
+            long: "Joint force deviation Θ (mN·m)",
+            short: "Θ (mN·m)",
+            label: "Plot of the joint force deviation over time",
+            others: &[
+                Other {
+                    name: "ε_c",
+                    value: |sample| sample.judgement.common_bound * JFD.scale,
+                    color: dim,
+                    style: Style::Thin,
+                },
+                Other {
+                    name: "ε_c indep.",
+                    value: |sample| sample.judgement.independent_bound * JFD.scale,
+                    color: dim,
+                    style: Style::Dashed,
+                },
+            ],
+        },
+    );
 }
 
 /// What a plot with a threshold shows.

@@ -6,7 +6,9 @@ use super::frame::TEXT;
 use super::marks::Judged;
 use crate::app::notation::{job, number};
 use crate::experiment::scenario::Threshold;
-use egui::{Align, Color32, CursorIcon, DragValue, FontId, Layout, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder};
+use egui::{
+    Align, Color32, CursorIcon, DragValue, FontId, Layout, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder,
+};
 use egui::{WidgetInfo, pos2, vec2};
 
 /// Half the height in which the line can be grabbed, points; a finger needs more than a mouse.
@@ -111,7 +113,8 @@ impl View<'_> {
             let back = Threshold::On(line.threshold.value().unwrap_or(line.otherwise));
             outcome.changed = Some(if on { Threshold::OFF } else { back });
         }
-        let response = response.on_hover_text(if on { "Switch this threshold off" } else { "Switch this threshold on" });
+        let response =
+            response.on_hover_text(if on { "Switch this threshold off" } else { "Switch this threshold on" });
         let center = switch.center();
         let strong = response.hovered() || response.has_focus();
         ui.painter().circle_stroke(center, 5.5, Stroke::new(if strong { 2.2 } else { 1.5 }, line.color));
