@@ -1,6 +1,6 @@
 //! Writes pictures of the page: desk and phone, light and dark. Run by `cargo xtask shot --out DIR`.
 
-#[expect(dead_code, reason = "the tests use the rest")]
+#[expect(dead_code, unused_imports, reason = "the tests use the rest")]
 mod harness;
 
 use harness::{Options, Page, Renderer};
