@@ -77,7 +77,6 @@ pub async fn start(
     };
     let host = Host {
         prefers_reduced_motion: options.reduced_motion(),
-        ..Host::default()
     };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
