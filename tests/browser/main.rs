@@ -17,5 +17,6 @@
 //! `centrode` holds the wasm module's exports. Software rendering is slow: wait for a state, never for time alone.
 
 mod failures;
+#[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
 mod start;
