@@ -30,6 +30,7 @@ impl Column {
 pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f32) -> Vec<Vec<Column>> {
     let mut stretches = Vec::new();
     let mut stretch: Vec<Column> = Vec::new();
+    let mut until = f64::NEG_INFINITY;
     for (t, value) in samples {
         if value.is_nan() {
             if !stretch.is_empty() {
@@ -37,16 +38,20 @@ pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f3
             }
             continue;
         }
-        let x = (time.at(t) / pixel).floor() * pixel + 0.5 * pixel;
         match stretch.last_mut() {
-            Some(column) if column.x == x => {
+            Some(column) if t < until => {
                 if value < column.low {
                     (column.low, column.rising) = (value, false);
                 } else if value > column.high {
                     (column.high, column.rising) = (value, true);
                 }
             }
-            _ => stretch.push(Column { x, low: value, high: value, rising: true }),
+            _ => {
+                // The column's end as a time, so that only the first sample of a column is mapped.
+                let left = (time.at(t) / pixel).floor() * pixel;
+                until = time.unbounded(left + pixel);
+                stretch.push(Column { x: left + 0.5 * pixel, low: value, high: value, rising: true });
+            }
         }
     }
     if !stretch.is_empty() {
