@@ -30,7 +30,7 @@ impl Column {
 pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f32) -> Vec<Vec<Column>> {
     let mut stretches = Vec::new();
     let mut stretch: Vec<Column> = Vec::new();
-    let mut until = f64::NEG_INFINITY;
+    let (mut x, mut until) = (0.0, f64::NEG_INFINITY);
     for (t, value) in samples {
         if value.is_nan() {
             if !stretch.is_empty() {
@@ -38,20 +38,21 @@ pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f3
             }
             continue;
         }
+        // The column's end is kept as a time, so that few samples are mapped.
+        if t >= until {
+            let left = (time.at(t) / pixel).floor() * pixel;
+            x = left + 0.5 * pixel;
+            until = time.unbounded(left + pixel);
+        }
         match stretch.last_mut() {
-            Some(column) if t < until => {
+            Some(column) if column.x == x => {
                 if value < column.low {
                     (column.low, column.rising) = (value, false);
                 } else if value > column.high {
                     (column.high, column.rising) = (value, true);
                 }
             }
-            _ => {
-                // The column's end as a time, so that only the first sample of a column is mapped.
-                let left = (time.at(t) / pixel).floor() * pixel;
-                until = time.unbounded(left + pixel);
-                stretch.push(Column { x: left + 0.5 * pixel, low: value, high: value, rising: true });
-            }
+            _ => stretch.push(Column { x, low: value, high: value, rising: true }),
         }
     }
     if !stretch.is_empty() {
