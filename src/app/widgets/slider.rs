@@ -136,12 +136,14 @@ pub fn slider(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option
     let bar = |from: f32, to: f32, color| {
         painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5), 1.5, color)
     };
-    bar(rect.left(), rect.right(), theme.faint);
+    let stops = slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0;
+    let (left, right) = if stops { way(rect) } else { (rect.left(), rect.right()) };
+    bar(left, right, theme.faint);
     let two_sided = slider.rail.range.0 < 0.0;
-    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { rect.left() };
+    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { left };
     let filled = if slider.on { theme.accent } else { theme.dim.gamma_multiply(0.5) };
     bar(origin.min(x), origin.max(x), filled);
-    if slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0 {
+    if stops {
         for stop in 0..=slider.rail.range.1 as u32 {
             let stop = f64::from(stop);
             let color = if stop <= shown { filled } else { theme.faint };
