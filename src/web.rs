@@ -72,7 +72,7 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         "webgl" => wgpu::Backends::GL,
         _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
     };
-    let host = Host { prefers_reduced_motion: options.reduced_motion(), ..Host::default() };
+    let host = Host { prefers_reduced_motion: options.reduced_motion() };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
     let name_out = std::rc::Rc::clone(&name);

@@ -10,15 +10,19 @@ use super::theme::Theme;
 use crate::experiment::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use paint::{Entry, Form, label, legend, mark, place, strip};
-use track::{Flat, Loci, Mark, Track};
+use track::{Flat, Loci, Mark, Track, thinned};
 
 /// Least size of the whole view, points.
-const LEAST: Vec2 = vec2(220.0, 240.0);
+const LEAST: Vec2 = vec2(160.0, 120.0);
+/// Width of the legend beside the data.
+const LEGEND: f32 = 122.0;
 const TITLE: f32 = 22.0;
 const TEXT: f32 = 12.5;
 const SMALL: f32 = 10.5;
 const GUTTER: f32 = 30.0;
 const TICKS: f32 = 18.0;
+/// Points per mm below which marks and lines become smaller.
+const USUAL: f32 = 6.5;
 /// A mark can be pointed at from this far, points.
 const REACH: f32 = 10.0;
 
@@ -33,16 +37,29 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     }
     let painter = ui.painter().clone();
     let track = Track::new(run);
-    let loci = track.loci();
+    let mut loci = track.loci();
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
     painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
-    let legend_at = area.min + vec2(0.0, TITLE);
-    let legend = legend(&painter, &theme, legend_at, area.width(), &entries(run, &theme));
-    let data = Rect::from_min_max(
-        pos2(area.left() + GUTTER, legend_at.y + legend + 5.0),
+    let entries = entries(run, &theme);
+    // The data is about as wide as high: what a low view has to spare is at its side.
+    let aside = area.width() > 1.15 * area.height();
+    let mut data = Rect::from_min_max(
+        pos2(area.left() + GUTTER, area.top() + TITLE),
         pos2(area.right() - 2.0, area.bottom() - TICKS),
     );
-    let view = View { run, track, theme, cursor, axes: Axes::fit(track_bounds(run, &loci), data), data, loci };
+    if aside {
+        data.max.x -= LEGEND;
+        legend(&painter, &theme, pos2(data.right() + 8.0, data.top()), 0.0, &entries);
+    } else {
+        let at = pos2(area.left(), data.top());
+        data.min.y += legend(&painter, &theme, at, area.width(), &entries) + 5.0;
+    }
+    let axes = Axes::fit(track.bounds(&loci), data);
+    for (marks, least) in [(&mut loci.model, 8.5), (&mut loci.constrained, 8.5), (&mut loci.sensor, 3.0)] {
+        *marks = thinned(marks, least / f64::from(axes.scale));
+    }
+    let size = (axes.scale / USUAL).clamp(0.6, 1.0);
+    let view = View { run, track, theme, cursor, axes, data, loci, size };
 
     let response = ui.interact(data, ui.scope_id().with("bending plane"), Sense::CLICK);
     let deviation = run.sample_at(cursor).judgement.deviation * 1e3;
@@ -69,10 +86,6 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     {
         out.push(Command::Seek(mark.time));
     }
-}
-
-fn track_bounds(run: &Run, loci: &Loci) -> [Flat; 2] {
-    Track::new(run).bounds(loci)
 }
 
 /// What the legend names: all that the run will show, so that it does not move during playback.
@@ -139,6 +152,8 @@ struct View<'a> {
     axes: Axes,
     data: Rect,
     loci: Loci,
+    /// Size of marks and lines against the usual.
+    size: f32,
 }
 
 impl View<'_> {
@@ -183,27 +198,34 @@ impl View<'_> {
             painter.line(side, Stroke::new(1.0, theme.robot.gamma_multiply(0.55)));
         }
         for ends in &robot.disks {
-            painter.line_segment(ends.map(|end| self.axes.at(end)), Stroke::new(3.0, theme.robot.gamma_multiply(0.8)));
+            painter.line_segment(
+                ends.map(|end| self.axes.at(end)),
+                Stroke::new(3.0 * self.size, theme.robot.gamma_multiply(0.8)),
+            );
         }
-        painter.line(self.line(&robot.backbone), Stroke::new(3.0, theme.robot));
+        painter.line(self.line(&robot.backbone), Stroke::new(3.0 * self.size, theme.robot));
     }
 
     /// The loci over the whole motion; the sensor's up to now.
     fn marks(&self, painter: &Painter) {
-        for (mark_, form, color) in self.shown() {
-            let later = if mark_.time > self.cursor { 0.45 } else { 1.0 };
-            let at = self.axes.at(mark_.at);
-            mark(painter, at, form, 0.85, color.gamma_multiply(later), &self.theme);
+        for (shown, form, color) in self.shown() {
+            let later = if shown.time > self.cursor { 0.45 } else { 1.0 };
+            let at = self.axes.at(shown.at);
+            let size = if form == Form::Dot { 0.8 } else { 0.95 };
+            mark(painter, at, form, size * self.size, color.gamma_multiply(later), &self.theme);
         }
     }
 
     /// Every locus mark that can be seen.
     fn shown(&self) -> impl Iterator<Item = (&Mark, Form, Color32)> {
         let theme = &self.theme;
-        let of = |marks, form, color| std::iter::Iterator::map(<[Mark]>::iter(marks), move |mark| (mark, form, color));
-        of(&self.loci.model, Form::Triangle, theme.model)
+        fn of(marks: &[Mark], form: Form, color: Color32) -> impl Iterator<Item = (&Mark, Form, Color32)> {
+            marks.iter().map(move |mark| (mark, form, color))
+        }
+        of(&self.loci.sensor, Form::Dot, theme.sensor)
+            .filter(|(mark, ..)| mark.time <= self.cursor)
             .chain(of(&self.loci.constrained, Form::Circle, theme.constrained))
-            .chain(of(&self.loci.sensor, Form::Dot, theme.sensor).filter(|(mark, ..)| mark.time <= self.cursor))
+            .chain(of(&self.loci.model, Form::Triangle, theme.model))
             .filter(|(mark, ..)| self.axes.holds(mark.at))
     }
 
@@ -231,7 +253,7 @@ impl View<'_> {
         let sensor = self.track.flat(&sample.judgement.sensor_centrode);
         let finite = |at: Flat| at.iter().all(|x| x.is_finite());
         if let Some(held) = self.track.constrained_at(self.cursor).filter(|&at| finite(at)) {
-            mark(painter, self.axes.at(held), Form::Circle, 1.6, theme.constrained, theme);
+            mark(painter, self.axes.at(held), Form::Circle, 1.6 * self.size, theme.constrained, theme);
         }
         if finite(model) && finite(sensor) {
             let settings = &self.run.plan.scenario().detection;
@@ -242,16 +264,16 @@ impl View<'_> {
             self.deviation(painter, ends, sample.judgement.deviation * 1e3, color);
         }
         if finite(model) {
-            mark(painter, self.axes.at(model), Form::Triangle, 1.7, theme.model, theme);
+            mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
         }
         if finite(sensor) {
-            mark(painter, self.axes.at(sensor), Form::Dot, 2.2, theme.sensor, theme);
+            mark(painter, self.axes.at(sensor), Form::Dot, 2.2 * self.size, theme.sensor, theme);
         }
     }
 
     fn deviation(&self, painter: &Painter, ends: [Pos2; 2], value: f64, color: Color32) {
         let text = format!("{} mm", number(value, 2));
-        let galley = painter.layout_job(job(&text, TEXT, self.theme.ink));
+        let galley = painter.layout_job(job(&text, TEXT - 1.0, self.theme.ink));
         let middle = self.data.shrink(8.0).clamp(ends[0] + 0.5 * (ends[1] - ends[0]));
         let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
         let robot = self.track.robot(&self.track.truth(self.cursor));
@@ -273,15 +295,18 @@ impl View<'_> {
         let at = self.axes.at(self.track.place(&shape, detection.location));
         if let Some(contact) = self.run.plan.contact() {
             let truth = self.axes.at(self.track.place(&shape, contact.arc_length));
-            painter.circle(truth, 4.5, theme.obstacle, Stroke::new(1.5, theme.panel));
+            painter.circle(truth, 4.5 * self.size, theme.obstacle, Stroke::new(1.5, theme.panel));
         }
-        mark(painter, at, Form::Diamond, 1.6, theme.detection, theme);
-        // In a corner: beside the backbone it would cover what it points at.
+        mark(painter, at, Form::Diamond, 1.6 * self.size, theme.detection, theme);
+        // In the corner that is free: beside the backbone it would cover what it points at.
         let mut text = format!("estimate {} mm", number(detection.location * 1e3, 1));
         if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time.is_some()) {
-            text += &format!(", true {} mm", number(contact.arc_length * 1e3, 1));
+            text += &format!("\ntrue {} mm", number(contact.arc_length * 1e3, 1));
         }
         let galley = painter.layout_job(job(&text, TEXT - 1.0, theme.ink));
+        if self.data.width() < 2.0 * galley.size().x || self.data.height() < 4.0 * galley.size().y {
+            return;
+        }
         let size = galley.size() + vec2(12.0, 6.0);
         let rect = Rect::from_min_size(self.data.right_bottom() - size - vec2(6.0, 6.0), size);
         label(painter, rect, galley, theme.detection, theme);

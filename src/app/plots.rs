@@ -15,15 +15,15 @@ pub use axis::{Axis, Steps, Tick};
 use super::command::Command;
 use super::theme::Theme;
 use crate::experiment::Run;
-use egui::{Rect, Ui, pos2, vec2};
+use egui::{Rect, Ui, Vec2, pos2, vec2};
 use frame::Frame;
 
 /// From this width on the plots stand side by side.
 const SIDE_BY_SIDE: f32 = 780.0;
 /// Least heights of the three plots when stacked, in points.
-const LEAST: [f32; 3] = [150.0, 136.0, 96.0];
+const LEAST: [f32; 3] = [128.0, 112.0, 84.0];
 /// Least height of the plots side by side.
-const LEAST_ROW: f32 = 150.0;
+const LEAST_ROW: f32 = 120.0;
 /// Space between plots.
 const GAP: f32 = 10.0;
 
@@ -53,12 +53,29 @@ enum Touch {
 
 /// Shows the plots in the space that is left; `cursor` is the playback position, s.
 pub fn plots(ui: &mut Ui, run: &Run, cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
-    let theme = Theme::of(ui);
     let space = ui.available_size();
     let beside = space.x >= SIDE_BY_SIDE && !(space.y.is_finite() && space.y > 0.9 * space.x);
     let least = if beside { LEAST_ROW } else { LEAST.iter().sum::<f32>() + 2.0 * GAP };
-    let height = if space.y.is_finite() { space.y.max(least) } else { least * 1.15 };
-    let (_, area) = ui.allocate_space(vec2(space.x.max(240.0), height));
+    let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
+    if space.y < least {
+        let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);
+        area.show(ui, |ui| in_place(ui, size, beside, run, cursor, state, out));
+    } else {
+        in_place(ui, size, beside, run, cursor, state, out);
+    }
+}
+
+fn in_place(
+    ui: &mut Ui,
+    size: Vec2,
+    beside: bool,
+    run: &Run,
+    cursor: f64,
+    state: &mut PlotState,
+    out: &mut Vec<Command>,
+) {
+    let theme = Theme::of(ui);
+    let (_, area) = ui.allocate_space(size);
     if !ui.is_rect_visible(area) {
         return;
     }

@@ -40,7 +40,7 @@ pub struct Ray {
 }
 
 /// Distance at which a segment of 30 mm and its floor fill the view, in m.
-const HOME: f32 = 0.092;
+const HOME: f32 = 0.086;
 /// Pitch stops short of the pole, where yaw would have no meaning.
 const MAX_PITCH: f32 = FRAC_PI_2 - 0.02;
 /// Just under the floor: enough to see a disk from below.

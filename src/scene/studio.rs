@@ -32,7 +32,7 @@ impl Studio {
     pub const LIGHT: Self = Self {
         inner: Color::hex(0xFFFFFF),
         outer: Color::hex(0xEDF0F3),
-        key_from: Vec3::new(0.62, -0.50, 1.45),
+        key_from: Vec3::new(-0.30, -0.50, 1.45),
         key: 0.78,
         fill: 0.20,
         sky: Color::hex(0xA9B2BD),
@@ -45,7 +45,7 @@ impl Studio {
     pub const DARK: Self = Self {
         inner: Color::hex(0x20262E),
         outer: Color::hex(0x11151A),
-        key_from: Vec3::new(0.62, -0.50, 1.45),
+        key_from: Vec3::new(-0.30, -0.50, 1.45),
         key: 0.85,
         fill: 0.16,
         sky: Color::hex(0x808A97),

@@ -125,7 +125,8 @@ fn a_translucent_body_lets_through_what_is_behind() {
 fn each_marker_has_its_form() {
     let camera = level();
     // Points from the middle, as parts of the half size, and whether there is colour.
-    let forms: [(Shape, &[(f32, f32, bool)]); 6] = [
+    type Probe = (f32, f32, bool);
+    let forms: [(Shape, &[Probe]); 6] = [
         (Shape::Circle, &[(0.0, 0.0, true), (0.6, 0.6, true), (0.85, 0.85, false)]),
         (Shape::Triangle, &[(0.0, 0.0, true), (0.7, 0.6, false), (-0.7, 0.6, false), (0.6, -0.5, true)]),
         (Shape::Dot, &[(0.0, 0.0, true), (0.75, 0.0, false)]),
@@ -217,9 +218,9 @@ fn bodies_throw_a_shadow_on_the_floor() {
         ..Default::default()
     };
     let camera = Camera::looking_at(Vec3::ZERO, 4.0, -1.57, 1.4);
-    let studio = flat(Color::WHITE);
-    // The light comes from the front right, so the shadow lies behind to the left.
-    let (in_shadow, in_light) = (Vec3::new(-0.29, 0.1, 0.0), Vec3::new(0.6, -0.2, 0.0));
+    // Light from the left at 45°: the shadow lies to the right.
+    let studio = Studio { key_from: Vec3::new(-1.0, 0.0, 1.0), ..flat(Color::WHITE) };
+    let (in_shadow, in_light) = (Vec3::new(0.4, 0.0, 0.0), Vec3::new(-0.4, 0.0, 0.0));
     let picture = shown(&scene, &camera, &studio);
     assert!(at(&picture, &camera, in_shadow)[1] < 120);
     assert!(at(&picture, &camera, in_light)[1] > 240);

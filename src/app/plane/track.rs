@@ -7,7 +7,7 @@ use crate::model::{Arc, Configuration, Constrained, Pose, Rate, Vec3};
 /// Millimetres per metre.
 const MM: f64 = 1e3;
 /// Marks of a locus over the whole motion.
-const MARKS: usize = 30;
+const MARKS: usize = 60;
 /// Points of a drawn backbone.
 const POINTS: usize = 40;
 /// A spacer disk's radius over the pitch radius.
@@ -74,6 +74,19 @@ pub struct Loci {
     pub constrained: Vec<Mark>,
     /// c_s: from the sensor.
     pub sensor: Vec<Mark>,
+}
+
+/// The marks that are at least `least` (mm) from the one kept before: a locus that hardly moves is not a blot.
+#[must_use]
+pub fn thinned(marks: &[Mark], least: f64) -> Vec<Mark> {
+    let mut kept: Vec<Mark> = Vec::new();
+    for mark in marks {
+        let away = |last: &Mark| (mark.at[0] - last.at[0]).hypot(mark.at[1] - last.at[1]);
+        if kept.last().is_none_or(|last| away(last) >= least) {
+            kept.push(*mark);
+        }
+    }
+    kept
 }
 
 /// A backbone with its disks.
@@ -159,13 +172,19 @@ impl<'a> Track<'a> {
                 })
                 .collect()
         };
+        Robot { backbone: self.backbone(shape), sides: [side(-1.0), side(1.0)], disks: self.disks(shape) }
+    }
+
+    /// Ends of the base, the spacer disks and the end disk, mm.
+    fn disks(&self, shape: &Shape) -> Vec<[Flat; 2]> {
+        let segment = self.run.plan.segment();
         let spacers = self.run.plan.scenario().robot.disks.iter().copied();
-        let disks = std::iter::once(0.0).chain(spacers).chain([length]).map(|s| {
+        let of = |s: f64| {
             let pose = shape.pose(s);
             let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
-            [-DISK, DISK].map(|end| shifted(at, across, end * radius))
-        });
-        Robot { backbone: self.backbone(shape), sides: [side(-1.0), side(1.0)], disks: disks.collect() }
+            [-DISK, DISK].map(|end| shifted(at, across, end * segment.pitch_radius * MM))
+        };
+        std::iter::once(0.0).chain(spacers).chain([segment.length]).map(of).collect()
     }
 
     /// The beam, when there is one. It stands on the side that the segment bends to, against the disk's rim.
@@ -227,7 +246,7 @@ impl<'a> Track<'a> {
             loci.model.extend(Some(model).filter(finite).map(|at| Mark { time, at }));
             loci.constrained.extend(self.held_centrode(sample).filter(finite).map(|at| Mark { time, at }));
         }
-        for sample in self.evenly(2 * MARKS) {
+        for sample in self.evenly(MARKS) {
             let at = self.flat(&sample.judgement.sensor_centrode);
             if finite(&at) && sample.judgement.speed > least {
                 loci.sensor.push(Mark { time: sample.time, at });
@@ -252,7 +271,7 @@ impl<'a> Track<'a> {
         let first = self.run.samples.first();
         for sample in first.into_iter().chain(self.evenly(12)) {
             let shape = self.truth(sample.time);
-            self.robot(&shape).disks.iter().flatten().for_each(|&at| include(at));
+            self.disks(&shape).iter().flatten().for_each(|&at| include(at));
             self.ghost(sample.time).into_iter().flatten().for_each(&mut include);
         }
         if let Some(Beam { center, radius, .. }) = self.beam() {
@@ -306,6 +325,14 @@ mod tests {
         let even = std::f64::consts::FRAC_PI_2 / 30.0;
         assert!(steps[1..].iter().all(|step| (step - even).abs() < 0.1 * even), "{steps:?}");
         assert!(samples.iter().all(|sample| (3.0..=8.0).contains(&sample.time)));
+    }
+
+    #[test]
+    fn thinning_keeps_marks_apart() {
+        let marks: Vec<Mark> = (0..100).map(|k| Mark { time: f64::from(k), at: [0.1 * f64::from(k), 0.0] }).collect();
+        let kept = thinned(&marks, 1.0);
+        assert!((9..=11).contains(&kept.len()) && kept[0] == marks[0]);
+        assert!(kept.windows(2).all(|pair| pair[1].at[0] - pair[0].at[0] >= 1.0));
     }
 
     #[test]

@@ -133,7 +133,7 @@ impl Frame {
                 painter.vline(x, data.bottom()..=data.bottom() + 3.0, Stroke::new(1.0, theme.dim));
                 let text = if tick.value == last { format!("{} s", tick.text) } else { tick.text };
                 let align = if x > data.right() - 12.0 { Align2::RIGHT_TOP } else { Align2::CENTER_TOP };
-                let x = if align == Align2::RIGHT_TOP { self.outer.right() } else { x };
+                let x = if align == Align2::RIGHT_TOP { data.right() + 4.0 } else { x };
                 painter.text(pos2(x, data.bottom() + 4.0), align, text, font.clone(), theme.dim);
             }
         }
@@ -179,11 +179,11 @@ impl Frame {
         let top = values.range()[1];
         let y = self.data.top();
         for (from, to) in spans(stretches, |column| column.high > top) {
-            let bar = Rect::from_min_max(pos2(from - 0.5, y), pos2(to + 0.5, y + 2.0)).intersect(self.data);
-            painter.rect_filled(bar, 0.0, color);
+            let bar = Rect::from_min_max(pos2(from - 0.5, y), pos2(to + 0.5, y + 3.0)).intersect(self.data);
+            painter.rect_filled(bar, 0.0, color.gamma_multiply(0.45));
             if to - from > 8.0 {
                 let x = 0.5 * (from + to);
-                let arrow = vec![pos2(x - 4.0, y + 7.5), pos2(x, y + 2.0), pos2(x + 4.0, y + 7.5)];
+                let arrow = vec![pos2(x - 4.0, y + 9.0), pos2(x, y + 4.0), pos2(x + 4.0, y + 9.0)];
                 painter.add(Shape::convex_polygon(arrow, color, Stroke::NONE));
             }
         }
@@ -199,10 +199,10 @@ impl Frame {
 pub fn stroke_line(painter: &Painter, line: Vec<Pos2>, color: Color32, style: Style) {
     match style {
         Style::Strong => {
-            painter.line(line, Stroke::new(1.8, color));
+            painter.line(line, Stroke::new(1.6, color));
         }
         Style::Thin => {
-            painter.line(line, Stroke::new(1.2, color));
+            painter.line(line, Stroke::new(1.1, color));
         }
         Style::Dashed => painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, color), 4.0, 3.0)),
     }

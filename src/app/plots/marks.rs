@@ -11,7 +11,7 @@ use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shap
 /// Half the width in which the arming edge can be grabbed, points.
 const GRAB: f32 = 7.0;
 /// Marks nearer than this are one.
-const CROWDED: f32 = 6.0;
+const CROWDED: f32 = 8.0;
 
 /// How a plot shows and names the values it judges.
 #[derive(Debug, Clone, Copy)]
@@ -29,14 +29,24 @@ pub struct Judged {
 }
 
 impl View<'_> {
-    /// Shades the time before arming and lets its edge be moved.
+    /// Where alarms begin to be raised, points.
+    fn armed_at(&self) -> f32 {
+        let [start, end] = self.frame.time.range();
+        self.frame.time.at(self.run.plan.scenario().detection.armed_from.clamp(start, end))
+    }
+
+    /// Shades the time before arming.
+    pub fn unarmed(&self, painter: &Painter) {
+        let (data, theme) = (self.frame.data, self.frame.theme);
+        let shade = Rect::from_min_max(data.min, pos2(self.armed_at(), data.bottom()));
+        painter.rect_filled(shade, 0.0, theme.dim.gamma_multiply(if theme.dark { 0.12 } else { 0.11 }));
+    }
+
+    /// Lets the edge between unarmed and armed be moved.
     pub fn arming(&mut self, ui: &mut Ui, painter: &Painter) {
         let (data, theme) = (self.frame.data, self.frame.theme);
         let armed_from = self.run.plan.scenario().detection.armed_from;
-        let [start, end] = self.frame.time.range();
-        let x = self.frame.time.at(armed_from.clamp(start, end));
-        let shade = Rect::from_min_max(data.min, pos2(x, data.bottom()));
-        painter.rect_filled(shade, 0.0, theme.dim.gamma_multiply(if theme.dark { 0.13 } else { 0.11 }));
+        let x = self.armed_at();
         let zone = Rect::from_x_y_ranges(x - GRAB..=x + GRAB, data.y_range()).intersect(data.expand(GRAB));
         let id = ui.scope_id().with(("armed", self.which));
         let response = ui.interact(zone, id, Sense::DRAG).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
@@ -57,18 +67,20 @@ impl View<'_> {
         let x = painter.round_to_pixel_center(x);
         painter.vline(x, data.y_range(), Stroke::new(if strong { 2.0 } else { 1.0 }, color));
         // A grip of two short lines says that it can be moved.
-        let y = data.bottom() - 14.0;
+        let y = data.top() + 22.0;
         let grip = Rect::from_center_size(pos2(x, y), vec2(7.0, 14.0));
         painter.rect(grip, 2.0, theme.panel, Stroke::new(1.0, color), egui::StrokeKind::Inside);
         for dx in [-1.0, 1.0] {
             painter.vline(x + dx, y - 3.5..=y + 3.5, Stroke::new(1.0, color));
         }
-        let text = if strong { format!("armed from {} s", number(armed_from, 2)) } else { "armed".into() };
+        let text = format!("armed from {} s", number(armed_from, 2));
         if self.which == 0 || strong {
             let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL), color);
             let left = x - 8.0 - galley.size().x;
             let at = if left > data.left() + 2.0 { left } else { x + 8.0 };
-            painter.galley(pos2(at, data.bottom() - 14.0 - 0.5 * galley.size().y), galley, color);
+            let rect = Rect::from_min_size(pos2(at, y - 0.5 * galley.size().y), galley.size());
+            painter.rect_filled(rect.expand(2.0), 3.0, theme.panel.gamma_multiply(0.85));
+            painter.galley(rect.min, galley, color);
         }
     }
 
@@ -87,21 +99,26 @@ impl View<'_> {
     }
 
     /// The detection, as a dashed line.
-    pub fn detection(&self, painter: &Painter, label: bool) {
+    pub fn detection(&self, painter: &Painter) {
         let Some(detection) = &self.run.detection else { return };
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let x = painter.round_to_pixel_center(self.frame.time.at(detection.time));
         let line = [pos2(x, data.top()), pos2(x, data.bottom())];
         painter.extend(Shape::dashed_line(&line, Stroke::new(1.4, theme.detection), 5.0, 3.5));
-        if label {
-            let text = format!("detected {}", Frame::clock(detection.time));
-            let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL + 0.5), theme.detection);
-            let right = x + 5.0 + galley.size().x <= data.right();
-            let at = if right { x + 5.0 } else { x - 5.0 - galley.size().x };
-            let rect = Rect::from_min_size(pos2(at, data.top() + 9.0), galley.size());
-            painter.rect_filled(rect.expand2(vec2(2.0, 0.0)), 2.0, theme.panel.gamma_multiply(0.85));
-            painter.galley(rect.min, galley, theme.detection);
-        }
+    }
+
+    /// When the detection is, in words beside its line.
+    pub fn detection_label(&self, painter: &Painter) {
+        let Some(detection) = &self.run.detection else { return };
+        let (data, theme) = (self.frame.data, &self.frame.theme);
+        let x = self.frame.time.at(detection.time);
+        let text = format!("detected {}", Frame::clock(detection.time));
+        let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL + 0.5), theme.detection);
+        let right = x + 8.0 + galley.size().x <= data.right();
+        let at = if right { x + 8.0 } else { x - 8.0 - galley.size().x };
+        let rect = Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size());
+        painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 3.0, theme.panel.gamma_multiply(0.9));
+        painter.galley(rect.min, galley, theme.detection);
     }
 
     /// The crossings of a method; the one that the detection is made of stands out. Says what is under the pointer,
@@ -112,7 +129,7 @@ impl View<'_> {
         let mut near: Option<(f32, &Crossing, Pos2)> = None;
         let mut last = f32::NEG_INFINITY;
         for crossing in self.run.crossings.iter().filter(|crossing| crossing.method == judged.method) {
-            let at = pos2(self.frame.time.at(crossing.time), values.at(crossing.value * judged.scale));
+            let at = pos2(self.frame.time.at(crossing.time), values.at(crossing.threshold * judged.scale));
             let first = crossing.method == Method::Fcd
                 && self.run.detection.as_ref().is_some_and(|detection| detection.time == crossing.time);
             if at.x - last < CROWDED && !first {
@@ -143,7 +160,7 @@ fn mark(painter: &Painter, at: Pos2, method: Method, first: bool, color: Color32
         let points = [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|d| at + d);
         painter.add(Shape::convex_polygon(points.to_vec(), color, edge));
     } else if method == Method::Fcd {
-        painter.circle(at, 3.2, halo, Stroke::new(1.6, color));
+        painter.circle(at, 2.8, halo, Stroke::new(1.4, color));
     } else {
         let square = Rect::from_center_size(at, vec2(8.0, 8.0));
         painter.rect(square, 1.0, color, edge, egui::StrokeKind::Middle);

@@ -28,13 +28,13 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
     let settings = view.run.plan.scenario().detection.clone();
     let color = view.frame.theme.sensor;
     let value = |sample: &Sample| sample.judgement.deviation * FCD.scale;
-    let judged = |sample: &&Sample| sample.time >= settings.armed_from && sample.judgement.speed > settings.min_speed;
+    let least = settings.min_speed;
     judging(
         ui,
         view,
         settings.xi2,
         0.007,
-        judged,
+        |sample| sample.judgement.speed > least,
         value,
         Shown {
             judged: FCD,
@@ -53,14 +53,13 @@ pub fn force(ui: &mut Ui, view: &mut View<'_>) {
     let settings = view.run.plan.scenario().detection.clone();
     let color = force_color(&view.frame.theme);
     let value = |sample: &Sample| sample.judgement.residual * JFD.scale;
-    let judged = |sample: &&Sample| sample.time >= settings.armed_from;
     let dim = view.frame.theme.dim;
     judging(
         ui,
         view,
         settings.xi1,
         0.03,
-        judged,
+        |_| true,
         value,
         Shown {
             judged: JFD,
@@ -111,7 +110,7 @@ fn judging(
     view: &mut View<'_>,
     threshold: Threshold,
     default: f64,
-    judged: impl Fn(&&Sample) -> bool,
+    is_judged: impl Fn(&Sample) -> bool + Copy,
     value: impl Fn(&Sample) -> f64,
     shown: Shown<'_>,
 ) {
@@ -121,7 +120,9 @@ fn judging(
     }
     let otherwise = view.state.last_on[which].unwrap_or(default);
     let high = view.state.held[which].unwrap_or_else(|| {
-        let mut values: Vec<f64> = view.run.samples.iter().filter(judged).map(&value).collect();
+        let armed_from = view.run.plan.scenario().detection.armed_from;
+        let judged = view.run.samples.iter().filter(|sample| sample.time >= armed_from && is_judged(sample));
+        let mut values: Vec<f64> = judged.map(&value).collect();
         top(threshold.value().unwrap_or(otherwise) * shown.judged.scale, &mut values)
     });
     let values = view.frame.values([0.0, high]);
@@ -145,21 +146,32 @@ fn judging(
     view.scrub(ui, shown.label);
     frame.title(&painter, shown.long, shown.short, &readouts);
     frame.grid(&painter, &values, Steps::Decimal);
-    view.arming(ui, &painter);
+    view.unarmed(&painter);
     view.contact(&painter, 4.0);
     for other in shown.others {
         frame.curve(&painter, view.run, &values, other.value, other.color, other.style);
     }
-    let stretches = frame.curve(&painter, view.run, &values, &value, shown.color, Style::Strong);
-    if stretches.is_empty() {
+    // What is not judged, for the robot hardly turns, stands back.
+    let part = |moving: bool| {
+        let value = &value;
+        move |sample: &Sample| if is_judged(sample) == moving { value(sample) } else { f64::NAN }
+    };
+    let back = shown.color.gamma_multiply(0.35);
+    let still = frame.curve(&painter, view.run, &values, part(false), back, Style::Thin);
+    let moving = frame.curve(&painter, view.run, &values, part(true), shown.color, Style::Strong);
+    if still.is_empty() && moving.is_empty() {
         empty(&painter, &frame, "not defined anywhere in this run");
     }
-    frame.off_scale(&painter, &values, &stretches, shown.color);
-    view.detection(&painter, which == 0);
+    frame.off_scale(&painter, &values, &moving, shown.color);
+    view.detection(&painter);
     let mut dots: Vec<_> = shown.others.iter().map(|other| ((other.value)(now), other.color)).collect();
     dots.push((value(now), shown.color));
     view.cursor(&painter, &values, &dots);
 
+    view.arming(ui, &painter);
+    if which == 0 {
+        view.detection_label(&painter);
+    }
     let line = Line { name: shown.symbol, threshold, otherwise, judged: shown.judged, color: shown.color };
     let outcome = view.threshold(ui, &values, &line);
     view.state.held[which] = outcome.moving.then_some(high);
@@ -198,7 +210,7 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     frame.grid(&painter, &values, Steps::Degrees);
     view.contact(&painter, frame.data.height());
     frame.curve(&painter, view.run, &values, value, theme.robot, Style::Strong);
-    view.detection(&painter, false);
+    view.detection(&painter);
     view.cursor(&painter, &values, &[(value(now), theme.robot)]);
     view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
 }

@@ -4,16 +4,18 @@ use super::View;
 use super::axis::{Axis, rounded};
 use super::frame::TEXT;
 use super::marks::Judged;
-use crate::app::notation::job;
+use crate::app::notation::{job, number};
 use crate::experiment::scenario::Threshold;
-use egui::{Align, Color32, CursorIcon, DragValue, Layout, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder};
+use egui::{
+    Align, Color32, CursorIcon, DragValue, FontId, Layout, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder,
+};
 use egui::{WidgetInfo, pos2, vec2};
 
 /// Half the height in which the line can be grabbed, points; a finger needs more than a mouse.
 const GRAB: f32 = 8.0;
 const GRAB_TOUCH: f32 = 16.0;
-/// Size of the label at the line's end.
-const LABEL: egui::Vec2 = vec2(118.0, 24.0);
+/// Height of the label at the line's end.
+const LABEL: f32 = 24.0;
 
 /// One threshold of one plot.
 pub struct Line {
@@ -79,17 +81,24 @@ impl View<'_> {
             let ends = [pos2(data.left(), y), pos2(data.right(), y)];
             painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, color), 2.0, 5.0));
         }
-        let half = 0.5 * LABEL.y;
+        let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));
-        let label = Rect::from_min_size(pos2(data.left() + 4.0, middle - half), LABEL);
-        self.label(ui, label, values, line, &mut outcome);
+        self.label(ui, pos2(data.left() + 4.0, middle - half), values, line, &mut outcome);
         outcome
     }
 
     /// The label at the line's end: a switch, the symbol, the value to type or drag.
-    fn label(&mut self, ui: &mut Ui, rect: Rect, values: &Axis, line: &Line, outcome: &mut Outcome) {
+    fn label(&mut self, ui: &mut Ui, at: Pos2, values: &Axis, line: &Line, outcome: &mut Outcome) {
         let theme = self.frame.theme;
         let on = line.threshold.value().is_some();
+        let scale = line.judged.scale;
+        let mut shown = line.threshold.value().unwrap_or(line.otherwise) * scale;
+        let ink = if on { theme.ink } else { theme.dim };
+        let symbol = ui.painter().layout_job(job(&line.name.replace('ξ', "ξ_"), TEXT, ink));
+        let unit = line.judged.unit;
+        let widest = format!("{} {unit}", number(shown.max(10.0), line.judged.decimals));
+        let widest = ui.painter().layout_job(job(&widest, TEXT, ink)).size().x;
+        let rect = Rect::from_min_size(at, vec2(24.0 + symbol.size().x + widest + 16.0, LABEL));
         let edge = if on { line.color } else { theme.faint };
         ui.painter().rect(rect, 6.0, theme.panel, Stroke::new(1.0, edge), StrokeKind::Inside);
         // Nothing behind the label can be grabbed through it.
@@ -113,17 +122,16 @@ impl View<'_> {
             ui.painter().circle_filled(center, 3.0, line.color);
         }
 
-        let symbol = ui.painter().layout_job(job(line.name, TEXT, if on { theme.ink } else { theme.dim }));
         let at = pos2(switch.right() - 1.0, rect.center().y - 0.5 * symbol.size().y);
         let field = Rect::from_min_max(pos2(at.x + symbol.size().x + 2.0, rect.top()), rect.max).shrink(2.0);
         ui.painter().galley(at, symbol, theme.ink);
 
-        let scale = line.judged.scale;
-        let mut shown = line.threshold.value().unwrap_or(line.otherwise) * scale;
         let builder = UiBuilder::new().max_rect(field).layout(Layout::right_to_left(Align::Center)).id_salt(id);
         let mut inner = ui.new_child(builder);
-        let style = inner.visuals_mut();
-        style.override_text_color = Some(if on { theme.ink } else { theme.dim });
+        let style = inner.style_mut();
+        style.text_styles.insert(style.drag_value_text_style.clone(), FontId::proportional(TEXT));
+        let style = &mut style.visuals;
+        style.override_text_color = Some(ink);
         for widget in [&mut style.widgets.inactive, &mut style.widgets.hovered, &mut style.widgets.active] {
             widget.expansion = 0.0;
             widget.bg_stroke = Stroke::NONE;
@@ -138,7 +146,7 @@ impl View<'_> {
             .max_decimals(line.judged.decimals + 1)
             .min_decimals(line.judged.decimals)
             .update_while_editing(false)
-            .suffix(format!(" {}", line.judged.unit));
+            .suffix(format!(" {unit}"));
         let response = inner.add(value).accessible_name(format!("{} on plot", line.name));
         outcome.moving |= response.dragged();
         if shown != before && shown.is_finite() {

@@ -23,7 +23,7 @@ pub enum Renderer {
     WebGl,
     /// WebGPU alone.
     WebGpu,
-    /// WebGPU and WebGL 2. WebGPU may not reach the screen: not for looking at pixels.
+    /// WebGPU and WebGL 2, to see which is taken. In this mix the software WebGPU soon loses its device, so draw with WebGL.
     Both,
     /// Nothing.
     Neither,

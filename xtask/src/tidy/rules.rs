@@ -181,9 +181,9 @@ fn reaches(path: &str, name: &str) -> bool {
 fn contains_word(line: &str, word: &str) -> bool {
     let name = |c: char| c.is_alphanumeric() || c == '_';
     line.match_indices(word).any(|(i, _)| {
-        let before = line[..i].chars().next_back();
-        let after = line[i + word.len()..].chars().next();
-        !(before.is_some_and(name) && word.starts_with(name)) && !(after.is_some_and(name) && word.ends_with(name))
+        let goes_on_before = word.starts_with(name) && line[..i].ends_with(name);
+        let goes_on_after = word.ends_with(name) && line[i + word.len()..].starts_with(name);
+        !goes_on_before && !goes_on_after
     })
 }
 
