@@ -2,7 +2,7 @@
 
 use centrode::app::{App, Host};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, Vec2, vec2};
+use egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use egui_kittest::{Harness, HarnessBuilder, Node};
@@ -447,4 +447,43 @@ fn pictures() {
             }
         }
     }
+}
+
+#[test]
+fn a_finger_that_scrolls_the_controls_changes_none() {
+    let mut page = page_of(vec2(390.0, 844.0));
+    click(&mut page, "Controls");
+    page.run_steps(3);
+    let before = app(&page).state().scenario.clone();
+    let start = slider(&page, "Contact time").rect().center() + vec2(60.0, 0.0);
+    let finger = |page: &mut Page, at: egui::Pos2, phase: TouchPhase| {
+        page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos: at, force: None });
+        if phase == TouchPhase::Move {
+            page.event(Event::PointerMoved(at));
+        } else {
+            let pressed = phase == TouchPhase::Start;
+            page.event(Event::PointerMoved(at));
+            page.event(Event::PointerButton {
+                pos: at,
+                button: egui::PointerButton::Primary,
+                pressed,
+                modifiers: Modifiers::NONE,
+            });
+        }
+        page.step();
+    };
+    finger(&mut page, start, TouchPhase::Start);
+    for i in 1..=6 {
+        finger(&mut page, start - vec2(0.0, 10.0 * i as f32), TouchPhase::Move);
+    }
+    finger(&mut page, start - vec2(0.0, 60.0), TouchPhase::End);
+    page.run_steps(2);
+    assert_eq!(app(&page).state().scenario, before);
+    let start = slider(&page, "Contact time").rect().center();
+    finger(&mut page, start, TouchPhase::Start);
+    for i in 1..=6 {
+        finger(&mut page, start + vec2(10.0 * i as f32, 0.0), TouchPhase::Move);
+    }
+    finger(&mut page, start + vec2(60.0, 0.0), TouchPhase::End);
+    assert_ne!(app(&page).state().scenario, before);
 }

@@ -166,6 +166,13 @@ pub fn card<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui
     inside(ui, name, rect, content)
 }
 
+/// Rounds the corners of a card whose content fills it.
+pub fn round(ui: &Ui, rect: Rect) {
+    let theme = super::theme::Theme::of(ui);
+    let edge = egui::Stroke::new(0.5 * GAP, theme.surface);
+    ui.painter().rect_stroke(rect, f32::from(super::theme::ROUND), edge, egui::StrokeKind::Outside);
+}
+
 /// Shows content in a rectangle.
 pub fn inside<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(rect));
