@@ -96,9 +96,6 @@ fn held(ui: &Ui, response: &Response) -> bool {
         ui.data_mut(|data| data.remove_temp::<bool>(id));
         return response.clicked();
     }
-    if !ui.input(|input| input.any_touches()) {
-        return true;
-    }
     match ui.data(|data| data.get_temp::<bool>(id)) {
         Some(true) => true,
         Some(false) => {
@@ -106,6 +103,7 @@ fn held(ui: &Ui, response: &Response) -> bool {
             ui.scroll_with_delta_animation(moved, ScrollAnimation::none());
             false
         }
+        None if !ui.input(|input| input.any_touches()) => true,
         None => {
             let moved = ui.input(|input| input.pointer.total_drag_delta()).unwrap_or_default();
             let along = moved.x.abs() >= moved.y.abs();
