@@ -1,5 +1,6 @@
 //! The bending plane, seen flat: true and unconstrained backbone, the beam, and the three centrode loci (Fig. 4).
 
+mod flat;
 mod paint;
 mod track;
 
@@ -9,8 +10,9 @@ use super::plots::{Axis, Steps};
 use super::theme::Theme;
 use crate::experiment::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
+use flat::{Flat, Mark, thinned};
 use paint::{Entry, Form, label, legend, mark, place, strip};
-use track::{Flat, Loci, Mark, Track, thinned};
+use track::{Loci, Track};
 
 /// Least size of the whole view, points.
 const LEAST: Vec2 = vec2(160.0, 120.0);

@@ -41,8 +41,14 @@ impl Axis {
     /// The value at a point, within the range.
     #[must_use]
     pub fn value(&self, point: f32) -> f64 {
+        self.unbounded(point).clamp(self.low, self.high)
+    }
+
+    /// The value at a point, within the range or not.
+    #[must_use]
+    pub fn unbounded(&self, point: f32) -> f64 {
         let share = f64::from((point - self.from) / (self.to - self.from));
-        (self.low + (self.high - self.low) * share).clamp(self.low, self.high)
+        self.low + (self.high - self.low) * share
     }
 
     /// Whether the range holds a value.

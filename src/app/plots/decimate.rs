@@ -30,6 +30,7 @@ impl Column {
 pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f32) -> Vec<Vec<Column>> {
     let mut stretches = Vec::new();
     let mut stretch: Vec<Column> = Vec::new();
+    let (mut x, mut until) = (0.0, f64::NEG_INFINITY);
     for (t, value) in samples {
         if value.is_nan() {
             if !stretch.is_empty() {
@@ -37,7 +38,12 @@ pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f3
             }
             continue;
         }
-        let x = (time.at(t) / pixel).floor() * pixel + 0.5 * pixel;
+        // The column's end is kept as a time, so that few samples are mapped.
+        if t >= until {
+            let left = (time.at(t) / pixel).floor() * pixel;
+            x = left + 0.5 * pixel;
+            until = time.unbounded(left + pixel);
+        }
         match stretch.last_mut() {
             Some(column) if column.x == x => {
                 if value < column.low {
