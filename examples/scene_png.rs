@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(&folder)?;
     let shots: Vec<(&str, f64)> = match &args[..] {
         [_, preset, time] => vec![(preset, time.parse()?)],
-        _ => ["bench", "disk-3", "free"].into_iter().flat_map(|name| [5.5, 6.28, 7.5].map(|t| (name, t))).collect(),
+        _ => ["bench", "disk-3", "free"].into_iter().flat_map(|name| [5.5, 6.3, 7.5].map(|t| (name, t))).collect(),
     };
 
     let gpu = gpu::Gpu::new();
