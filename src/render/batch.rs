@@ -133,11 +133,47 @@ fn ball(mesh: &Mesh) -> Option<Ball> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::{demo, palette::Palette};
+    use crate::scene::{Block, Color, Disk, Line, Marker, Pose, Shape, Solid, Tube};
+    use glam::{Quat, Vec2};
+
+    /// Some of everything: an opaque tube, two translucent plates, a box, a ghost, a line and a marker.
+    fn some() -> Scene {
+        let up = |z: f32| Pose::new(Vec3::Z * z, Quat::IDENTITY);
+        let tube = |finish, x: f32| Tube {
+            path: vec![Vec3::X * x, Vec3::new(x, 0.0, 0.03)],
+            radius: 0.0005,
+            color: Color::WHITE.alpha(if finish == Finish::Ghost { 0.5 } else { 1.0 }),
+            finish,
+            cap: Default::default(),
+        };
+        let disk = |z| Disk {
+            pose: up(z),
+            radius: 0.004,
+            thickness: 0.001,
+            holes: vec![crate::scene::Hole { center: Vec2::ZERO, radius: 0.001 }],
+            mark: None,
+            color: Color::WHITE.alpha(0.7),
+            finish: Finish::Satin,
+        };
+        Scene {
+            tubes: vec![tube(Finish::Ghost, 0.01), tube(Finish::Metal, 0.0)],
+            disks: vec![disk(0.01), disk(0.03)],
+            blocks: vec![Block {
+                pose: up(0.0),
+                solid: Solid::Box { half: Vec3::splat(0.002) },
+                bevel: 0.0,
+                color: Color::BLACK,
+                finish: Finish::Matte,
+            }],
+            lines: vec![Line::new(vec![Vec3::ZERO, Vec3::X], 1.0, Color::WHITE)],
+            markers: vec![Marker::new(Vec3::ZERO, Shape::Dot, 5.0, Color::WHITE)],
+            ..Scene::default()
+        }
+    }
 
     #[test]
     fn layers_lie_in_order_and_refilling_changes_nothing() {
-        let scene = demo::scene(&Palette::LIGHT, 1.3);
+        let scene = some();
         let mut batch = Batch::default();
         batch.fill(&scene);
         let first = (batch.mesh.indices.clone(), batch.pieces.len(), batch.signs.len());
@@ -154,7 +190,7 @@ mod tests {
     #[test]
     fn the_farthest_is_drawn_first() {
         let mut batch = Batch::default();
-        batch.fill(&demo::scene(&Palette::LIGHT, 1.3));
+        batch.fill(&some());
         let eye = Vec3::new(0.05, -0.1, 0.04);
         batch.sort(eye);
         assert!(batch.parts.windows(2).all(|w| { w[0].center.distance(eye) >= w[1].center.distance(eye) }));

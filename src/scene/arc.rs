@@ -2,31 +2,9 @@
 
 use std::f32::consts::TAU;
 
-use glam::{Quat, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 
 use super::Pose;
-
-/// The frame at arc length `s` of a circular arc that starts along z.
-///
-/// `length` in m is where the bend reaches `bend` rad; `delta` in rad turns the bending plane as in the paper's Eq. 3
-/// and Eq. 4: a positive bend goes toward (cos δ, −sin δ, 0), and R = Rz(−δ) Ry(φ_s) Rz(δ).
-pub fn circular(length: f32, bend: f32, delta: f32, s: f32) -> Pose {
-    let phi = if length > 0.0 { bend * s / length } else { 0.0 };
-    // (1 − cos φ)/φ and sin φ/φ by the half angle, so that straight is no special case.
-    let half = 0.5 * phi;
-    let chord = s * sinc(half);
-    let (sin_delta, cos_delta) = delta.sin_cos();
-    let aside = chord * half.sin();
-    let turn = Quat::from_rotation_z(-delta);
-    Pose::new(
-        Vec3::new(aside * cos_delta, -aside * sin_delta, chord * half.cos()),
-        turn * Quat::from_rotation_y(phi) * turn.conjugate(),
-    )
-}
-
-fn sinc(x: f32) -> f32 {
-    if x.abs() < 1e-3 { 1.0 - x * x / 6.0 } else { x.sin() / x }
-}
 
 /// Frames at `count + 1` equally spaced arc lengths from 0 to `length`, each put behind `start`.
 ///
@@ -69,53 +47,47 @@ pub fn circle(pose: Pose, radius: f32, count: usize) -> Vec<Vec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f32::consts::{FRAC_PI_2, PI};
+    use glam::Quat;
+    use std::f32::consts::FRAC_PI_2;
 
     const L: f32 = 0.03;
 
-    #[test]
-    fn straight_goes_up() {
-        let tip = circular(L, 0.0, 0.7, L);
-        assert!((tip.position - Vec3::new(0.0, 0.0, L)).length() < 1e-9);
-        assert!(tip.rotation.angle_between(Quat::IDENTITY) < 1e-3);
+    /// A circle's arc in the x–z plane that has turned by `bend` where it is `L` long. Not for a bend of 0.
+    fn bent(bend: f32, s: f32) -> Pose {
+        let (turned, radius) = (bend * s / L, L / bend);
+        let position = radius * Vec3::new(1.0 - turned.cos(), 0.0, turned.sin());
+        Pose::new(position, Quat::from_rotation_y(turned))
+    }
+
+    fn length(line: &[Vec3]) -> f32 {
+        line.windows(2).map(|w| w[0].distance(w[1])).sum()
     }
 
     #[test]
-    fn quarter_circle_ends_where_it_should() {
-        let radius = L / FRAC_PI_2;
-        let tip = circular(L, FRAC_PI_2, 0.0, L);
-        assert!((tip.position - Vec3::new(radius, 0.0, radius)).length() < 1e-7);
-        assert!((tip.rotation * Vec3::Z - Vec3::X).length() < 1e-6);
-        // δ turns it toward (cos δ, −sin δ).
-        let tip = circular(L, FRAC_PI_2, FRAC_PI_2, L);
-        assert!((tip.position - Vec3::new(0.0, -radius, radius)).length() < 1e-7);
-    }
-
-    #[test]
-    fn no_jump_at_straight_and_unit_speed() {
-        for bend in [0.0, 1e-6, 1.9e-3, 2.1e-3, 0.5, -1.3, PI] {
-            let path: Vec<_> = frames(Pose::IDENTITY, L, 400, |s| circular(L, bend, 0.4, s));
-            let length: f32 = path.windows(2).map(|w| (w[1].position - w[0].position).length()).sum();
-            assert!((length - L).abs() < 1e-6, "{bend}: {length}");
-        }
+    fn frames_lie_behind_their_start() {
+        let whole = frames(Pose::IDENTITY, L, 16, |s| bent(1.0, s));
+        let second = frames(whole[8], 0.5 * L, 8, |s| bent(1.0, s));
+        assert_eq!((whole.len(), second.len()), (17, 9));
+        assert!((second[8].position - whole[16].position).length() < 1e-7);
+        assert!(second[8].rotation.angle_between(whole[16].rotation) < 1e-3);
+        assert_eq!(frames(Pose::IDENTITY, L, 0, |s| bent(1.0, s)).len(), 2);
     }
 
     #[test]
     fn offset_backbones_change_length_by_the_joint() {
-        // q = r cos(δ + iβ)(θL − θ0) = −r cos(δ + iβ) φ (Eq. 2).
-        let (r, delta, bend) = (0.003, 0.3_f32, 1.2);
-        let path = frames(Pose::IDENTITY, L, 2000, |s| circular(L, bend, delta, s));
+        // q = r cos(iβ)(θL − θ0) = −r cos(iβ) φ (Eq. 2).
+        let (r, bend) = (0.003, 1.2);
+        let path = frames(Pose::IDENTITY, L, 2000, |s| bent(bend, s));
         for i in 0..3 {
             let line = offset(&path, pitch_point(r, i, 3));
-            let length: f32 = line.windows(2).map(|w| (w[1] - w[0]).length()).sum();
-            let q = -r * (delta + TAU * i as f32 / 3.0).cos() * bend;
-            assert!((length - (L + q)).abs() < 2e-5, "{i}: {length} {q}");
+            let q = -r * (TAU * i as f32 / 3.0).cos() * bend;
+            assert!((length(&line) - (L + q)).abs() < 2e-5, "{i}: {q}");
         }
     }
 
     #[test]
     fn extending_goes_straight_on() {
-        let path = frames(Pose::IDENTITY, L, 4, |s| circular(L, FRAC_PI_2, 0.0, s));
+        let path = frames(Pose::IDENTITY, L, 4, |s| bent(FRAC_PI_2, s));
         let longer = extended(&path, 0.001, 0.002);
         assert_eq!(longer.len(), path.len() + 2);
         assert!((longer[0].position - Vec3::Z * -0.001).length() < 1e-9);
@@ -125,11 +97,11 @@ mod tests {
     }
 
     #[test]
-    fn a_second_arc_goes_on_from_the_first() {
-        let first = frames(Pose::IDENTITY, 0.5 * L, 8, |s| circular(L, 1.0, 0.2, s));
-        let start = *first.last().unwrap();
-        let second = frames(start, 0.5 * L, 8, |s| circular(L, 1.0, 0.2, s));
-        let whole = circular(L, 1.0, 0.2, L);
-        assert!((second.last().unwrap().position - whole.position).length() < 1e-7);
+    fn a_circle_is_closed_and_round() {
+        let pose = bent(1.0, L);
+        let circle = circle(pose, 0.004, 64);
+        assert_eq!(circle.first(), circle.last());
+        assert!(circle.iter().all(|p| (p.distance(pose.position) - 0.004).abs() < 1e-8));
+        assert!((length(&circle) - TAU * 0.004).abs() < 2e-5);
     }
 }

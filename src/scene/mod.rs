@@ -7,8 +7,7 @@
 //!
 //! # Filling a scene
 //!
-//! 1. Sample the shape: [`arc::frames`] takes any `Fn(s) -> Pose`; [`arc::circular`] is the constant-curvature case,
-//!    and a segment bent around a contact is two of them, the second starting at [`Pose`] `frames.last()`.
+//! 1. Sample the shape: [`arc::frames`] takes any `Fn(s) -> Pose`, as the model's shapes give it.
 //! 2. Turn frames into bodies: [`arc::offset`] gives the centreline of a backbone that runs at a fixed point of the
 //!    moving disk frame ([`arc::pitch_point`]), which becomes a [`Tube`]; each disk is a [`Disk`] at the frame of its
 //!    arc length, with one hole per backbone.
@@ -16,14 +15,13 @@
 //! 4. Set the [`Ground`], and take every colour from a [`palette::Palette`].
 //!
 //! Things that belong to an assumption rather than to the robot use [`Finish::Ghost`]: they cast no shadow and
-//! fade toward their middle. [`demo::scene`] does all of this once with made-up numbers.
+//! fade toward their middle. [`view::view`] does all of this for a run at one instant.
 //!
 //! The renderer takes geometry from a scene only when the version number handed over with it changes.
 
 pub mod arc;
 pub mod camera;
 pub mod color;
-pub mod demo;
 pub mod palette;
 mod primitives;
 mod studio;

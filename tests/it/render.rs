@@ -1,8 +1,10 @@
 //! The renderer, looked at by its pixels.
 
+use centrode::experiment::{preset, simulate};
 use centrode::render::{Frame, Renderer, ViewId};
+use centrode::scene::view::{ViewOptions, home_camera, view};
 use centrode::scene::{
-    Block, Camera, Color, Finish, Ground, Line, Marker, Pose, Scene, Shape, Solid, Studio, demo, palette::Palette,
+    Block, Camera, Color, Finish, Ground, Line, Marker, Pose, Scene, Shape, Solid, Studio, palette::Palette,
 };
 use glam::{Quat, Vec2, Vec3};
 
@@ -39,6 +41,13 @@ fn shown(scene: &Scene, camera: &Camera, studio: &Studio) -> Picture {
     render(&gpu, &mut renderer, (scene, 1), camera, studio, (SIZE, 1.0), wgpu::Color::BLACK)
 }
 
+/// The bench after the detection, and the view it opens in.
+fn bench(palette: Palette) -> (Scene, Camera) {
+    let scenario = preset::find("bench").and_then(preset::Preset::scenario).expect("preset");
+    let run = simulate(&scenario).expect("run");
+    (view(&run, 7.0, &ViewOptions { palette, pulse: 0.0 }), home_camera(&run))
+}
+
 fn near(pixel: [u8; 4], color: Color, tolerance: i32) -> bool {
     let wanted = color.to_bytes();
     (0..3).all(|i| (i32::from(pixel[i]) - i32::from(wanted[i])).abs() <= tolerance)
@@ -51,13 +60,12 @@ fn at(picture: &Picture, camera: &Camera, point: Vec3) -> [u8; 4] {
 }
 
 #[test]
-fn the_demo_shows_robot_background_and_every_signal() {
+fn a_run_shows_robot_background_and_every_signal() {
     let gpu = Gpu::new();
     let mut renderer = Renderer::new(&gpu.device, FORMAT);
-    let camera = Camera::default();
     let size = [640, 480];
     for (version, palette) in [Palette::LIGHT, Palette::DARK].into_iter().enumerate() {
-        let scene = demo::scene(&palette, 1.3);
+        let (scene, camera) = bench(palette);
         let picture = render(
             &gpu,
             &mut renderer,
@@ -247,8 +255,7 @@ fn any_size_is_drawn_and_nothing_is_drawn_twice() {
     let gpu = Gpu::new();
     let Gpu { device, queue } = &gpu;
     let mut renderer = Renderer::new(device, FORMAT);
-    let scene = demo::scene(&Palette::LIGHT, 1.0);
-    let camera = Camera::default();
+    let (scene, camera) = bench(Palette::LIGHT);
     let mut drawn = |size_px, scene_version, pixels_per_point| {
         let mut encoder = device.create_command_encoder(&Default::default());
         let frame = Frame {

@@ -108,17 +108,14 @@ fn end(sink: &mut Sink<'_>, center: Vec3, rotation: Quat, tube: &Tube) {
 mod tests {
     use super::super::check;
     use super::*;
-    use crate::scene::{Color, Finish, arc};
+    use crate::scene::{Color, Finish};
 
     fn bent(cap: Cap) -> Tube {
-        let frames = arc::frames(Pose::IDENTITY, 0.03, 20, |s| arc::circular(0.03, 1.5, 0.3, s));
-        Tube {
-            path: arc::offset(&frames, arc::pitch_point(0.003, 1, 3)),
-            radius: 0.0004,
-            color: Color::WHITE,
-            finish: Finish::Metal,
-            cap,
-        }
+        let path = (0..=20).map(|i| 0.075 * i as f32).map(|turned| {
+            let aside = 0.02 * (1.0 - turned.cos());
+            Vec3::new(aside, 0.3 * aside, 0.02 * turned.sin())
+        });
+        Tube { path: path.collect(), radius: 0.0004, color: Color::WHITE, finish: Finish::Metal, cap }
     }
 
     #[test]
