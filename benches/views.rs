@@ -20,6 +20,7 @@ fn views(c: &mut Criterion) {
     let options = ViewOptions { palette: Palette::DARK, pulse: 0.0 };
     group.bench_function("scene of the 3D view", |b| b.iter(|| view(black_box(&run), CURSOR, &options)));
     let context = egui::Context::default();
+    centrode::app::theme::install(&context);
     let mut state = PlotState::default();
     group.bench_function("three plots", |b| {
         b.iter(|| {

@@ -80,10 +80,7 @@ fn report(page: &Page) -> serde_json::Value {
 
 #[test]
 fn it_opens_playing_on_a_contact_that_is_detected() {
-    let ui = |ui: &mut egui::Ui, app: &mut Option<App>| {
-        app.get_or_insert_with(|| App::new(ui.ctx(), None, Host::default())).ui(ui);
-    };
-    let mut page: Page = Harness::builder().with_size(vec2(1440.0, 900.0)).with_step_dt(0.1).build_ui_state(ui, None);
+    let mut page = build(Harness::builder().with_size(vec2(1440.0, 900.0)), None);
     let before = app(&page).state().time;
     page.run_steps(5);
     assert!(app(&page).state().playing && app(&page).state().time > before + 0.4);

@@ -67,6 +67,7 @@ fn harness<'a>(page: Page, size: Vec2, theme: egui::Theme) -> Harness<'a, Page> 
         .with_theme(theme)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(|ui, page: &mut Page| page.show(ui), page);
     harness.run();
     harness
@@ -255,6 +256,7 @@ fn the_plane_fits_in_a_low_place() {
         .with_theme(egui::Theme::Light)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
             |ui, page: &mut Page| plane(ui, &page.run, page.cursor, &mut page.log),
             Page::new("bench", 7.1),
@@ -271,6 +273,7 @@ fn plots_alone(name: &str, size: Vec2) -> Harness<'static, Page> {
         .with_theme(egui::Theme::Dark)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
             |ui, page: &mut Page| {
                 let mut out = Vec::new();
