@@ -1,18 +1,14 @@
-//! Writes pictures of the 3D view, light and dark, desk and phone, into a folder:
+//! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME]`.
 
-#[path = "../tests/it/gpu.rs"]
-#[allow(dead_code)]
-mod gpu;
-
+use centrode::app::theme;
+use centrode::app::viewport::{ViewState, viewport};
 use centrode::experiment::{preset, simulate};
-use centrode::render::Renderer;
-use centrode::scene::palette::Palette;
-use centrode::scene::view::{ViewOptions, home_camera, view};
+use egui_kittest::Harness;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 
 /// Width and height in points.
-const SIZES: [(&str, [u32; 2]); 2] = [("desk", [730, 500]), ("phone", [375, 320])];
-const PIXELS_PER_POINT: f32 = 2.0;
+const SIZES: [(&str, egui::Vec2); 2] = [("desk", egui::vec2(730.0, 500.0)), ("phone", egui::vec2(375.0, 320.0))];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -22,30 +18,27 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [_, preset, time] => vec![(preset, time.parse()?)],
         _ => ["bench", "disk-3", "free"].into_iter().flat_map(|name| [5.5, 6.3, 7.5].map(|t| (name, t))).collect(),
     };
-
-    let gpu = gpu::Gpu::new();
-    let mut renderer = Renderer::new(&gpu.device, wgpu::TextureFormat::Rgba8Unorm);
-    let mut version = 0;
     for (name, time) in shots {
         let run = simulate(&preset::find(name)?.scenario()?)?;
-        let camera = home_camera(&run);
-        for (theme, palette) in [("light", Palette::LIGHT), ("dark", Palette::DARK)] {
-            let scene = view(&run, time, &ViewOptions { palette, pulse: 0.0 });
-            version += 1;
+        for (look, choice) in [("light", egui::Theme::Light), ("dark", egui::Theme::Dark)] {
             for (form, size) in SIZES {
-                let size = size.map(|side| (side as f32 * PIXELS_PER_POINT) as u32);
-                let picture = gpu::render(
-                    &gpu,
-                    &mut renderer,
-                    (&scene, version),
-                    &camera,
-                    &palette.studio,
-                    (size, PIXELS_PER_POINT),
-                    wgpu::Color::TRANSPARENT,
-                );
-                let path = folder.join(format!("{name}-{time}-{theme}-{form}.png"));
-                let bytes: Vec<u8> = picture.pixels.into_iter().flatten().collect();
-                image::save_buffer(&path, &bytes, size[0], size[1], image::ColorType::Rgba8)?;
+                let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);
+                let mut state = ViewState::new(Some(&gpu), true);
+                let mut page = Harness::builder()
+                    .with_size(size + egui::vec2(16.0, 16.0))
+                    .with_pixels_per_point(2.0)
+                    .renderer(WgpuTestRenderer::from_render_state(gpu))
+                    .build_ui(|ui| {
+                        ui.ctx().set_theme(choice);
+                        theme::install(ui.ctx());
+                        let page = ui.ctx().content_rect();
+                        ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
+                        let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
+                        viewport(&mut view, &run, time, &mut state, &mut Vec::new());
+                    });
+                page.run_ok();
+                let path = folder.join(format!("{name}-{time}-{look}-{form}.png"));
+                page.render()?.save(&path)?;
                 println!("{}", path.display());
             }
         }

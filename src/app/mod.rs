@@ -10,6 +10,7 @@ pub mod control;
 pub mod fonts;
 mod keys;
 pub mod layout;
+pub mod legend;
 pub mod memo;
 pub mod notation;
 pub mod panels;

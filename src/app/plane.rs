@@ -5,13 +5,14 @@ mod paint;
 mod track;
 
 use super::command::Command;
+use super::legend::{Entry, Form, legend, mark};
 use super::notation::{job, note, number};
 use super::plots::{Axis, Steps};
 use super::theme::Theme;
 use crate::experiment::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark, thinned};
-use paint::{Entry, Form, label, legend, mark, place, strip};
+use paint::{label, place, strip};
 use track::{Loci, Track};
 
 /// Least size of the whole view, points.

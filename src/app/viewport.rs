@@ -1,21 +1,26 @@
 //! The 3D view: the one file that joins egui and the renderer.
 
+mod notes;
+
 use std::sync::Arc;
 
-use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
 use super::command::Command;
 use super::fonts;
-use super::theme::Theme;
+use super::theme::{ROUND, Theme};
 use super::widgets::icon::{self, Icon, Look};
 use crate::experiment::{Run, Scenario};
 use crate::render::{Frame, Renderer, ViewId};
 use crate::scene::palette::Palette;
 use crate::scene::view::{ViewOptions, home_camera, view};
-use crate::scene::{Camera, Label, Scene, Studio};
+use crate::scene::{Camera, Scene, Studio};
 
 /// The ring around a fresh detection runs for this long, s of the run.
 const PULSE: f64 = 0.9;
+
+/// Room that the state chip takes at the top left: place and size, points.
+const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(130.0, 30.0));
 
 /// What the view remembers.
 #[derive(Debug, Default)]
@@ -82,9 +87,13 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out
     let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
-    labels(ui, rect, &camera, &state.scene.labels, &theme);
+    // The picture's corners, in the colour of what is behind the card: a frame so wide that it covers them.
+    let (round, around) = (f32::from(ROUND), Stroke::new(0.5 * f32::from(ROUND), theme.surface));
+    ui.painter_at(rect).rect_stroke(rect, round, around, StrokeKind::Outside);
 
     let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
+    let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
+    notes::notes(ui, rect, &camera, run, &state.scene, vec![button, chip]);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();
     // A camera is kept only when it was moved: until then it follows the robot's size.
     state.camera = (!reset && camera != home_camera(run)).then_some(camera);
@@ -119,37 +128,6 @@ fn steer(ui: &Ui, response: &Response, rect: Rect, camera: &mut Camera) {
 
 fn glam(v: egui::Vec2) -> glam::Vec2 {
     glam::Vec2::new(v.x, v.y)
-}
-
-/// Writes the scene's labels: each where it asks to be, or mirrored to where it fits and covers no other.
-fn labels(ui: &Ui, rect: Rect, camera: &Camera, labels: &[Label], theme: &Theme) {
-    let painter = ui.painter_at(rect);
-    let mut taken: Vec<Rect> = Vec::new();
-    for label in labels {
-        let Some(pixel) = camera.project(label.anchor, glam(rect.size())) else { continue };
-        let anchor = rect.min + vec2(pixel.x, pixel.y);
-        if !rect.contains(anchor) {
-            continue;
-        }
-        let [r, g, b, _] = label.color.to_bytes();
-        let ink = egui::Color32::from_rgb(r, g, b);
-        let text = painter.layout_no_wrap(label.text.clone(), fonts::strong(12.5), ink);
-        let place = |x: f32, y: f32| {
-            let (dx, dy) = (label.offset.x * x, label.offset.y * y);
-            let left = if dx < 0.0 { anchor.x + dx - text.size().x } else { anchor.x + dx };
-            let top = if dy < 0.0 { anchor.y + dy - text.size().y } else { anchor.y + dy };
-            Rect::from_min_size(pos2(left, top), text.size()).expand2(vec2(5.0, 2.0))
-        };
-        let places =
-            [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (1.0, 2.6), (-1.0, 2.6)].map(|(x, y)| place(x, y));
-        let free = |place: &Rect| {
-            rect.shrink(4.0).contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place))
-        };
-        let Some(at) = places.into_iter().find(free) else { continue };
-        painter.rect_filled(at, 5.0, theme.panel.gamma_multiply(0.82));
-        painter.galley(at.min + vec2(5.0, 2.0), text, ink);
-        taken.push(at);
-    }
 }
 
 /// One picture on its way to the GPU.

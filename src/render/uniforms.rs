@@ -33,10 +33,12 @@ const _: () = assert!(size_of::<Globals>() == 2 * 64 + 14 * 16 + 4 * 16);
 
 /// Edge of the shadow map, in texels.
 pub(super) const SHADOW_TEXELS: u32 = 1024;
-/// Radius over which shadows on the floor are averaged, in m.
-const GROUND_SOFTNESS: f32 = 0.0017;
+/// Radius over which shadows on the floor are averaged, as a part of the floor's radius.
+const GROUND_SOFTNESS: f32 = 0.027;
 /// The same on bodies.
-const BODY_SOFTNESS: f32 = 0.00022;
+const BODY_SOFTNESS: f32 = 0.0035;
+/// How far a ghost yields to a body in the same place, as a part of the floor's radius: where both shapes agree only the body is seen.
+const YIELD: f32 = 0.013;
 
 /// The ball that holds everything which casts a shadow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -66,16 +68,20 @@ impl Globals {
         let back = camera.backward();
         let fill = (back * 0.7 - right * 0.9 + up * 0.25).normalize();
 
+        // The floor tells how large the scene is; without one, what stands there does.
+        let extent = ground.map(|ground| ground.radius).filter(|radius| *radius > 0.0 && radius.is_finite());
+        let extent = extent.or(casters.map(|ball| 3.0 * ball.radius)).unwrap_or(1.0);
+        let body_softness = BODY_SOFTNESS * extent;
         // A surface must not fall into its own shadow, over the width that is averaged.
-        let stand_off = casters.map_or(0.0, |ball| 3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * BODY_SOFTNESS);
+        let stand_off = casters.map_or(0.0, |ball| 3.0 * ball.radius / SHADOW_TEXELS as f32 + 0.8 * body_softness);
         let (light, shadow) = match casters {
             Some(ball) => (
                 light_from_scene(key, ball),
                 [
                     2.0 * ball.radius / SHADOW_TEXELS as f32,
-                    0.5 * GROUND_SOFTNESS / ball.radius,
+                    0.5 * GROUND_SOFTNESS * extent / ball.radius,
                     1.0,
-                    0.5 * BODY_SOFTNESS / ball.radius,
+                    0.5 * body_softness / ball.radius,
                 ],
             ),
             None => (Mat4::IDENTITY, [0.0; 4]),
@@ -84,7 +90,7 @@ impl Globals {
         let mut globals = Self {
             clip_from_scene: camera.view_projection(size).to_cols_array_2d(),
             light_from_scene: light.to_cols_array_2d(),
-            eye: camera.eye(size).extend(0.0).to_array(),
+            eye: camera.eye(size).extend(YIELD * extent).to_array(),
             viewport: [size.x, size.y, pixels_per_point, stand_off],
             key: key.extend(studio.key).to_array(),
             fill: fill.extend(studio.fill).to_array(),

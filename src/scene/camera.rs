@@ -113,21 +113,42 @@ impl Camera {
         self.pan(from_middle * (1.0 - before / self.distance), size);
     }
 
-    /// Looks at a ball so that it fills any view, keeping the direction; this becomes home.
-    pub fn fit(&mut self, center: Vec3, radius: f32) {
-        if !(center.is_finite() && radius.is_finite() && radius > 0.0) {
-            return;
+    /// A camera in this direction that shows all `points` as large as they fit; this is its home.
+    ///
+    /// `low` and `high` bound the points' place in the picture, from (−1, −1) at the bottom left to (1, 1) at the top
+    /// right, in a view that is `aspect` times as wide as high. A wider view has room to the sides; one narrower than
+    /// high is seen from farther away.
+    pub fn framing(points: &[Vec3], yaw: f32, pitch: f32, aspect: f32, [low, high]: [Vec2; 2]) -> Self {
+        let finite = || points.iter().copied().filter(|p| p.is_finite());
+        let (least, most) = finite().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+        if !least.is_finite() {
+            return Self::looking_at(Vec3::ZERO, HOME, yaw, pitch);
         }
-        let fov = self.fov;
-        let distance = radius / (0.5 * fov.clamp(0.05, 2.5)).sin();
-        *self = Self::looking_at(center, distance, self.yaw, self.pitch);
-        self.fov = fov;
+        let mut camera = Self::looking_at(0.5 * (least + most), 2.0 * least.distance(most), yaw, pitch);
+        let (size, (right, up)) = (Vec2::new(aspect, 1.0), camera.axes());
+        // Perspective couples place and distance, weakly: a few rounds settle it.
+        for _ in 0..8 {
+            let seen = finite().filter_map(|p| camera.project(p, size)).map(|p| {
+                let at = p.truncate() / size;
+                Vec2::new(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y)
+            });
+            let (from, to) = seen.fold((Vec2::INFINITY, Vec2::NEG_INFINITY), |(a, b), p| (a.min(p), b.max(p)));
+            if !from.is_finite() {
+                break;
+            }
+            let fill = ((to - from) / (high - low)).max_element();
+            let half = camera.distance * (0.5 * camera.fov).tan();
+            let shift = (0.5 * (from + to) - 0.5 * fill * (low + high)) * half;
+            let target = camera.target + right * (shift.x * aspect) + up * shift.y;
+            camera = Self::looking_at(target, camera.distance * fill, yaw, pitch);
+        }
+        camera
     }
 
-    /// The factor by which the eye stands farther away in a portrait view, so that as much is seen to the sides
-    /// as in a square one. (The field of view is vertical.)
+    /// The factor by which the eye stands farther away in a narrow view, so that as much is seen to the sides
+    /// as in one a little wider than high. (The field of view is vertical.)
     fn portrait(size: Vec2) -> f32 {
-        (1.05 / aspect(size)).max(1.0)
+        (1.15 / aspect(size)).max(1.0)
     }
 
     /// Where the camera stands when it draws a view of `size`, in m.
@@ -280,17 +301,26 @@ mod tests {
     }
 
     #[test]
-    fn fit_fills_the_view() {
-        for size in [SIZE, Vec2::new(400.0, 800.0)] {
-            let mut camera = Camera::default();
-            camera.fit(Vec3::ONE, 0.5);
-            let (right, _) = camera.axes();
-            let edge = camera.project(Vec3::ONE + right * 0.5, size).unwrap();
-            assert!(edge.x < size.x && edge.x > 0.5 * size.x);
+    fn framing_fills_the_room_it_is_given() {
+        let points = [Vec3::ZERO, Vec3::new(0.02, 0.004, 0.01), Vec3::new(-0.003, 0.0, 0.03), Vec3::NAN];
+        let room = [Vec2::new(-0.9, -0.7), Vec2::new(0.9, 0.9)];
+        for scale in [1.0, 40.0] {
+            let points = points.map(|p| p * scale);
+            let mut camera = Camera::framing(&points, -1.2, 0.3, 1.2, room);
+            let size = Vec2::new(1200.0, 1000.0);
+            let seen: Vec<Vec2> = points
+                .iter()
+                .filter_map(|&p| camera.project(p, size))
+                .map(|p| Vec2::new(p.x / 600.0 - 1.0, 1.0 - p.y / 500.0))
+                .collect();
+            assert!(seen.iter().all(|p| p.cmpge(room[0] - 5e-3).all() && p.cmple(room[1] + 5e-3).all()), "{seen:?}");
+            let high = seen.iter().map(|p| p.y).fold(f32::MIN, f32::max);
+            assert!((high - 0.9).abs() < 5e-3, "{high}");
             let home = camera;
             camera.orbit(Vec2::splat(50.0));
             camera.reset();
             assert_eq!(camera, home);
         }
+        assert!(Camera::framing(&[], 0.0, 0.0, 1.0, room).eye(Vec2::ONE).is_finite());
     }
 }

@@ -312,7 +312,7 @@ pub struct Label {
 pub struct Ground {
     /// Middle, in m.
     pub center: Vec3,
-    /// Where it has faded out, in m.
+    /// Where it has faded out, in m. It tells the renderer the scene's size: shadows are soft in proportion to it.
     pub radius: f32,
     /// Distance of two grid lines, in m; 0 for no grid.
     pub spacing: f32,

@@ -2,7 +2,7 @@
 struct Globals {
     clip_from_scene: mat4x4<f32>,
     light_from_scene: mat4x4<f32>,
-    // Eye in the scene; w unused.
+    // Eye in the scene; w is how far, in m, a ghost yields to a body in the same place.
     eye: vec4<f32>,
     // Width and height in pixels, pixels per point, how far shadows are looked up off a surface.
     viewport: vec4<f32>,

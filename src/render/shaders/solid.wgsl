@@ -15,13 +15,10 @@ struct Surface {
     @location(3) material: vec4<f32>,
 }
 
-// How far, in m, a ghost yields to a body in the same place: where both shapes agree only the body is seen.
-const YIELD: f32 = 0.0008;
-
 @vertex
 fn vs_solid(in: Vertex) -> Surface {
     return Surface(
-        lifted(in.position, -YIELD * in.material.z),
+        lifted(in.position, -g.eye.w * in.material.z),
         in.position,
         in.normal,
         in.color,

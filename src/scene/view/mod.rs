@@ -8,8 +8,10 @@ use super::{Camera, Ground, Pose, Scene};
 use crate::experiment::Run;
 use crate::experiment::plant::Plant;
 use crate::model::{self, Arc};
-use glam::{DMat3, DQuat, DVec3, Vec3};
+use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
+use loci::Signs;
 use robot::Proportions;
+use std::f32::consts::PI;
 
 /// How a run is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,38 +28,58 @@ pub fn view(run: &Run, time: f64, options: &ViewOptions) -> Scene {
     let palette = &options.palette;
     let plant = Plant::new(&run.plan);
     let (configuration, _) = plant.command(time);
-    let shape = plant.shape(configuration);
-    let sizes = Proportions::of(run);
+    let (shape, held) = (plant.shape(configuration), plant.in_contact(&configuration));
+    let (sizes, length) = (Proportions::of(run), run.plan.segment().length);
+    let delta = configuration.delta() as f32;
     let mut scene = Scene { ground: Some(floor(run, palette, &sizes)), ..Scene::default() };
     let pose = |s: f32| scene_pose(&shape.pose(f64::from(s)));
     robot::robot(&mut scene, palette, &sizes, pose);
     if let Some(contact) = run.plan.contact() {
-        let at_contact =
-            Arc { length: run.plan.segment().length, configuration: configuration.with_bend(contact.bend) };
-        let delta = configuration.delta() as f32;
-        robot::beam(&mut scene, palette, &sizes, &scene_pose(&at_contact.pose(contact.arc_length)), contact, delta);
+        let at_contact = Arc { length, configuration: configuration.with_bend(contact.bend) };
+        let at = scene_pose(&at_contact.pose(contact.arc_length));
+        robot::beam(&mut scene, palette, &sizes, &at, contact, (delta, held));
     }
-    if plant.in_contact(&configuration) {
-        let free = Arc { length: run.plan.segment().length, configuration };
+    if held {
+        let free = Arc { length, configuration };
         robot::ghost(&mut scene, palette, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
     }
-    loci::loci(&mut scene, palette, run, time);
-    loci::axes(&mut scene, palette, run, time);
+    let signs = Signs { run, plant: &plant, palette, time, lift: 1.5 * sizes.disk };
+    signs.loci(&mut scene);
+    signs.axes(&mut scene);
     if let Some(detection) = run.detection.filter(|detection| detection.time <= time) {
-        loci::estimate(&mut scene, options, pose(detection.location as f32).position, detection.location);
+        // The label stands off the side from which the segment bends away.
+        let aside = Quat::from_rotation_z(-delta) * Vec3::X * (-1.9 * sizes.disk).copysign(-configuration.bend() as f32);
+        let at = pose(detection.location as f32);
+        signs.estimate(&mut scene, options.pulse, [at.position, at.point(aside)], detection.location);
     }
     scene
 }
 
-/// The view in which a segment of this run's length opens.
+/// The view in which a run opens: its bending plane a little from the side and from above, and the robot as large as
+/// its whole motion allows. It does not depend on the beam, so that it keeps still while that is moved.
 #[must_use]
 pub fn home_camera(run: &Run) -> Camera {
-    let default = Camera::default();
-    let scale = run.plan.segment().length as f32 / DESIGN_LENGTH;
-    Camera::looking_at(default.target * scale, default.distance * scale, default.yaw, default.pitch)
+    let motion = &run.plan.scenario().motion;
+    let sizes = Proportions::of(run);
+    let length = run.plan.segment().length;
+    let start = Plant::new(&run.plan).command(motion.start).0;
+    let end = Plant::new(&run.plan).command(motion.finish).0;
+    let bends = (0..=6).map(|i| start.bend() + (end.bend() - start.bend()) * f64::from(i) / 6.0);
+    let tips = bends.map(|bend| scene_pose(&Arc { length, configuration: start.with_bend(bend) }.pose(length)));
+    let points: Vec<Vec3> = tips.flat_map(|tip| sizes.outline(&tip).collect::<Vec<_>>()).collect();
+    // A segment that bends the other way is seen from the other side: it bends to the right in the picture.
+    let back = if start.bend() + end.bend() < 0.0 { PI } else { 0.0 };
+    Camera::framing(&points, YAW - motion.delta as f32 + back, PITCH, ASPECT, ROOM)
 }
 
-/// The length for which camera, floor and sizes were chosen by eye, m; others are scaled to it.
+/// Direction of the home view. Straight at the bending plane the screw axes would be points.
+const YAW: f32 = -1.16;
+const PITCH: f32 = 0.28;
+/// Width over height of the smallest view that is planned for.
+const ASPECT: f32 = 1.17;
+/// Where the robot stands in the picture: below it is room for the legend.
+const ROOM: [Vec2; 2] = [Vec2::new(-0.82, -0.73), Vec2::new(0.82, 0.93)];
+/// The length for which the floor was chosen by eye, m; others are scaled to it.
 const DESIGN_LENGTH: f32 = 0.030;
 
 fn floor(run: &Run, palette: &Palette, sizes: &Proportions) -> Ground {
@@ -125,7 +147,7 @@ mod tests {
         let mut scenario = Scenario::default();
         scenario.contact.place = Place::Nowhere;
         let free = at(&scenario, 7.0);
-        assert_eq!((ghosts(&free), count(&free, Shape::Circle)), (0, 0));
+        assert_eq!((ghosts(&free), count(&free, Shape::Ring)), (0, 0));
         assert!(free.blocks.len() < at(&Scenario::default(), 7.0).blocks.len());
     }
 

@@ -3,7 +3,7 @@
 use crate::experiment::Run;
 use crate::experiment::plan::PlannedContact;
 use crate::scene::palette::Palette;
-use crate::scene::{Block, Cap, Color, Disk, Finish, Hole, Line, Mark, Pose, Scene, Solid, Tube, arc};
+use crate::scene::{Block, Cap, Color, Disk, Finish, Hole, Line, Mark, Marker, Pose, Scene, Shape, Solid, Tube, arc};
 use glam::{Quat, Vec2, Vec3};
 
 /// Frames along a backbone: enough that no corner shows.
@@ -32,6 +32,13 @@ impl Proportions {
         let disk = pitch + (2.6 * secondary).max(0.3 * pitch);
         let spacers = robot.disks.iter().map(|&s| s as f32).collect();
         Self { length, pitch, disk, primary, secondary, spacers, floor: -0.62 * disk }
+    }
+
+    /// Points around the base and around the end disk at `tip`: what a picture must hold of the robot in a shape.
+    pub fn outline(&self, tip: &Pose) -> impl Iterator<Item = Vec3> {
+        let foot = Pose::new(Vec3::Z * self.floor, Quat::IDENTITY);
+        let end = Pose::new(tip.point(Vec3::Z * 0.3 * self.disk), tip.rotation);
+        arc::circle(foot, 1.57 * self.disk, 12).into_iter().chain(arc::circle(end, self.disk, 12))
     }
 
     fn holes(&self) -> Vec<Hole> {
@@ -106,39 +113,45 @@ pub fn ghost(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: i
     }
 }
 
-/// The beam, where the backbone meets it: a bar across the bending plane, carried by a post behind the robot.
+/// The beam, where the backbone meets it: a rod across the bending plane, carried by a post behind the robot.
 ///
-/// `at` is the frame of the contact's arc length in the shape of the contact.
+/// `at` is the frame of the contact's arc length in the shape of the contact; `touched` whether the beam holds it now.
 pub fn beam(
     scene: &mut Scene,
     palette: &Palette,
     sizes: &Proportions,
     at: &Pose,
     contact: &PlannedContact,
-    delta: f32,
+    (delta, touched): (f32, bool),
 ) {
-    let thick = 0.31 * sizes.disk;
-    let reach = 3.0 * sizes.disk;
-    // x toward which the segment bends, y along the bending axis, z along the backbone.
+    let side = contact.side as f32;
+    let rod = 0.5 * sizes.pitch;
+    // x toward which the segment bends, y along the bending axis and away from the viewer, z along the backbone.
     let frame = at.then(&Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta)));
     let at_disk = sizes.spacers.iter().chain([&sizes.length]).any(|&s| (s - contact.arc_length as f32).abs() < 1e-6);
-    let surface = if at_disk { sizes.disk } else { sizes.pitch + sizes.secondary };
-    let aside = contact.side as f32 * (surface + thick);
-    let block = |position, rotation, half| Block {
+    let surface = side * if at_disk { sizes.disk } else { sizes.pitch + sizes.secondary };
+    let along = |y: f32| frame.point(Vec3::new(surface + side * rod, side * y * sizes.disk, 0.0));
+    let cylinder = |position, rotation, radius, half_length| Block {
         pose: Pose::new(position, rotation),
-        solid: Solid::Box { half },
-        bevel: 0.23 * thick,
+        solid: Solid::Cylinder { radius, half_length },
+        bevel: 0.2 * rod,
         color: palette.stone,
         finish: Finish::Matte,
     };
-    let middle = frame.point(Vec3::new(aside, 0.55 * reach, 0.0));
-    scene.blocks.push(block(middle, frame.rotation, Vec3::new(thick, reach, thick)));
-    let end = frame.point(Vec3::new(aside, 0.55 * reach + 0.82 * reach, 0.0));
-    let half_height = 0.5 * (end.z + 1.6 * thick - sizes.floor).max(0.0);
-    let post = Vec3::new(1.23 * thick, 1.23 * thick, half_height);
-    let foot = Vec3::new(end.x, end.y, sizes.floor + half_height);
-    scene.blocks.push(block(foot, Quat::from_rotation_z(-delta), post));
+    let (front, back, post) = (-0.75, 3.0, 2.6);
+    let across = frame.rotation * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+    let half = 0.5 * (back - front) * sizes.disk;
+    scene.blocks.push(cylinder(along(0.5 * (front + back)), across, rod, half));
+    let top = along(post);
+    let half_height = 0.5 * (top.z + 1.5 * rod - sizes.floor).max(0.0);
+    let on_floor = |height: f32| Vec3::new(top.x, top.y, sizes.floor + height);
+    scene.blocks.push(cylinder(on_floor(half_height), Quat::IDENTITY, 0.95 * rod, half_height));
+    scene.blocks.push(cylinder(on_floor(0.2 * rod), Quat::IDENTITY, 2.1 * rod, 0.2 * rod));
     if let Some(ground) = &mut scene.ground {
-        ground.contacts.push([end.x, end.y, 0.67 * sizes.disk, 0.4]);
+        ground.contacts.push([top.x, top.y, 3.0 * rod, 0.4]);
+    }
+    if touched {
+        let touch = Marker::new(frame.point(Vec3::X * surface), Shape::Ring, 15.0, palette.ink);
+        scene.markers.push(touch.faded(0.7).through(0.7).lifted(sizes.disk));
     }
 }
