@@ -24,6 +24,7 @@ pub mod table;
 pub mod theme;
 pub mod viewport;
 pub mod widgets;
+mod words;
 
 use std::collections::BTreeMap;
 

@@ -1,10 +1,10 @@
 //! Every control of the page, a row each.
 
 use super::control::{Choice, Control, Group, Scale, Words};
-use super::quantity::{Quantity, number, shorten};
-use super::span;
+use super::quantity::Quantity;
+use super::{span, words};
 use crate::experiment::Scenario;
-use crate::experiment::scenario::{Averaging, Mounting, Place, Start, Threshold};
+use crate::experiment::scenario::{Averaging, Mounting, Start, Threshold};
 use Quantity::{Angle, AngularSpeed, Count, Force, Frequency, Length, Modulus, Moment, Ratio, Time};
 use Scale::{Linear, Log, LogWhole, Stops, Whole};
 
@@ -60,10 +60,10 @@ const CONTACT: &[Control] = &[
             0,
             Stops,
             |s| (0.0, s.robot.disks.len() as f64),
-            Field(|s| Some(span::disk(s)), set_disk, |from, to| to.contact.place = from.contact.place),
+            Field(|s| Some(span::disk(s)), words::set_disk, |from, to| to.contact.place = from.contact.place),
             "Where the beam meets the backbone: at a disk, or type an arc length such as 18 mm.",
         ),
-        Words { show: show_place, enter: enter_place },
+        Words { show: words::show_place, enter: words::enter_place },
     ),
     with_words(
         row(
@@ -80,7 +80,7 @@ const CONTACT: &[Control] = &[
             ),
             "When the backbone reaches the beam. A bend can be typed instead, such as 56°.",
         ),
-        Words { show: show_start, enter: enter_start },
+        Words { show: words::show_start, enter: words::enter_start },
     ),
     row(
         "motion.delta",
@@ -370,59 +370,9 @@ pub static GROUPS: &[Group] = &[
     Group { name: "Tracker and cells", folded: true, controls: DEVICES, choices: DEVICE_CHOICES },
 ];
 
-fn set_disk(scenario: &mut Scenario, disk: f64) {
-    let disk = disk.round().max(0.0);
-    scenario.contact.place = if disk < 1.0 { Place::Nowhere } else { Place::Disk(disk as u64) };
-}
-
-fn show_place(scenario: &Scenario) -> Option<(String, &'static str)> {
-    match scenario.contact.place {
-        Place::Nowhere => Some(("none".into(), "")),
-        Place::Disk(_) => None,
-        Place::ArcLength(s) => Some((number(Length.shown(s), 1), Length.unit())),
-    }
-}
-
-fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
-    let text = text.trim();
-    let refused =
-        || Err(format!("“{}” is no place: type none, a disk's number, or an arc length such as 18 mm", shorten(text)));
-    if matches!(text.to_lowercase().as_str(), "none" | "no" | "off" | "free") {
-        scenario.contact.place = Place::Nowhere;
-        return Some(Ok(()));
-    }
-    // A bare number is a disk; an arc length wears its unit, or is a field that shows one already.
-    let along = matches!(scenario.contact.place, Place::ArcLength(_));
-    let disk = Count.parse(text).ok();
-    match (disk, Length.parse(text)) {
-        (Some(disk), _) if disk.fract() == 0.0 && disk >= 0.0 && !along => set_disk(scenario, disk),
-        (Some(_), Ok(shown)) if along => scenario.contact.place = Place::ArcLength(Length.si(shown)),
-        (None, Ok(shown)) => scenario.contact.place = Place::ArcLength(Length.si(shown)),
-        _ => return Some(refused()),
-    }
-    Some(Ok(()))
-}
-
-fn show_start(scenario: &Scenario) -> Option<(String, &'static str)> {
-    match scenario.contact.start {
-        Start::Time(_) => None,
-        Start::Bend(bend) => Some((number(Angle.shown(bend), 1), Angle.unit())),
-    }
-}
-
-fn enter_start(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
-    // A bare number is of the kind that the field shows.
-    let bare = Count.parse(text).is_ok();
-    let bend = matches!(scenario.contact.start, Start::Bend(_));
-    let angle = Angle.parse(text).ok().filter(|_| bend || !bare)?;
-    scenario.contact.start = Start::Bend(Angle.si(angle));
-    Some(Ok(()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::memo::check;
 
     fn control(key: &str) -> &'static Control {
         GROUPS.iter().flat_map(|group| group.controls).find(|control| control.key == key).expect(key)
@@ -455,45 +405,6 @@ mod tests {
             let name = key.rsplit('.').next().expect("name");
             assert!(toml.lines().any(|line| line.starts_with(&format!("{name} ="))), "{key}");
         }
-    }
-
-    #[test]
-    fn places_can_be_typed() {
-        let disk = control("contact.disk");
-        let mut scenario = Scenario::default();
-        for (text, place) in [
-            ("3", Place::Disk(3)),
-            ("none", Place::Nowhere),
-            ("1", Place::Disk(1)),
-            ("18 mm", Place::ArcLength(0.018)),
-            ("17", Place::ArcLength(0.017)),
-            ("None", Place::Nowhere),
-            ("0", Place::Nowhere),
-        ] {
-            disk.enter(&mut scenario, text).expect(text);
-            assert_eq!(scenario.contact.place, place, "{text}");
-            check(&scenario).expect(text);
-        }
-        for text in ["1.5", "-1", "two", "nan", "3 s"] {
-            disk.enter(&mut scenario, text).expect_err(text);
-        }
-        // As many disks as asked for; whether they exist is for the scenario's check to say.
-        disk.enter(&mut scenario, "4").expect("a number");
-        assert!(check(&scenario).expect_err("no disk 4").to_string().contains("contact.disk"));
-    }
-
-    #[test]
-    fn starts_can_be_typed() {
-        let start = control("contact.time");
-        let mut scenario = Scenario::default();
-        for (text, shown) in
-            [("5.5", "5.50 s"), ("5600 ms", "5.60 s"), ("45°", "45.0 °"), ("30", "30.0 °"), ("5.8 s", "5.80 s")]
-        {
-            start.enter(&mut scenario, text).expect(text);
-            let (number, unit) = start.text(&scenario);
-            assert_eq!(format!("{number} {unit}"), shown);
-        }
-        start.enter(&mut scenario, "soon").expect_err("words");
     }
 
     #[test]
