@@ -115,13 +115,7 @@ mod tests {
             let aside = 0.02 * (1.0 - turned.cos());
             Vec3::new(aside, 0.3 * aside, 0.02 * turned.sin())
         });
-        Tube {
-            path: path.collect(),
-            radius: 0.0004,
-            color: Color::WHITE,
-            finish: Finish::Metal,
-            cap,
-        }
+        Tube { path: path.collect(), radius: 0.0004, color: Color::WHITE, finish: Finish::Metal, cap }
     }
 
     #[test]
