@@ -1,5 +1,5 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
-//! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME]`.
+//! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
 use centrode::app::theme;
 use centrode::app::viewport::{ViewState, viewport};
@@ -15,11 +15,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::path::PathBuf::from(args.first().map_or(".", String::as_str));
     std::fs::create_dir_all(&folder)?;
     let shots: Vec<(&str, f64)> = match &args[..] {
-        [_, preset, time] => vec![(preset, time.parse()?)],
+        [_, preset, time, ..] => vec![(preset, time.parse()?)],
         _ => ["bench", "disk-3", "free"].into_iter().flat_map(|name| [5.5, 6.3, 7.5].map(|t| (name, t))).collect(),
     };
     for (name, time) in shots {
-        let run = simulate(&preset::find(name)?.scenario()?)?;
+        let mut draft = preset::find(name)?.draft()?;
+        for change in args.iter().skip(3) {
+            draft.set(change)?;
+        }
+        let run = simulate(&draft.finish()?)?;
         for (look, choice) in [("light", egui::Theme::Light), ("dark", egui::Theme::Dark)] {
             for (form, size) in SIZES {
                 let gpu = create_render_state(default_wgpu_setup(), egui_wgpu::RendererOptions::PREDICTABLE);

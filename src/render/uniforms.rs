@@ -132,3 +132,38 @@ fn premultiplied(color: Color) -> [f32; 4] {
 fn with_w(v: [f32; 4], w: f32) -> [f32; 4] {
     [v[0], v[1], v[2], w]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_larger_robot_has_the_same_shadows() {
+        let ground = |scale: f32| Ground {
+            center: Vec3::ZERO,
+            radius: 0.06 * scale,
+            spacing: 0.005 * scale,
+            major: 2,
+            line: Color::CLEAR,
+            glow: Color::CLEAR,
+            shadow: 0.5,
+            contacts: vec![],
+        };
+        let globals = |scale: f32| {
+            Globals::new(&Inputs {
+                camera: &Camera::looking_at(Vec3::ZERO, 0.09 * scale, 0.0, 0.3),
+                studio: &Studio::DARK,
+                ground: Some(&ground(scale)),
+                size: [100, 100],
+                pixels_per_point: 1.0,
+                casters: Some(Ball { center: Vec3::ZERO, radius: 0.02 * scale }),
+            })
+        };
+        let (small, large) = (globals(1.0), globals(100.0));
+        for i in [1, 3] {
+            assert!((large.shadow[i] / small.shadow[i] - 1.0).abs() < 1e-4, "softness {i}");
+        }
+        assert!((large.viewport[3] / small.viewport[3] - 100.0).abs() < 1e-2, "stand-off");
+        assert!((large.eye[3] / small.eye[3] - 100.0).abs() < 1e-2, "yield");
+    }
+}

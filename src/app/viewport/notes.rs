@@ -36,7 +36,8 @@ impl View<'_> {
 /// What the legend names: all that the run will show, so that it does not move during playback.
 fn entries(run: &Run, theme: &Theme, narrow: bool) -> Vec<Entry> {
     let entry = |form, color, text| Entry { form, color, text };
-    let mut entries = vec![entry(Form::Triangle, theme.model, "c_m model"), entry(Form::Dot, theme.sensor, "c_s sensor")];
+    let mut entries =
+        vec![entry(Form::Triangle, theme.model, "c_m model"), entry(Form::Dot, theme.sensor, "c_s sensor")];
     if run.contact_time.is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
     }

@@ -102,10 +102,9 @@ impl Signs<'_> {
         let model: Vec<Vec3> = times.iter().filter_map(|&t| self.model(t)).collect();
         let constrained: Vec<Vec3> = times.iter().filter_map(|&t| self.constrained(t)).collect();
         self.dots(scene);
-        for (path, shape, size, color) in [
-            (model, Shape::Triangle, 9.5, palette.model),
-            (constrained, Shape::Ring, 10.0, palette.constrained),
-        ] {
+        for (path, shape, size, color) in
+            [(model, Shape::Triangle, 9.5, palette.model), (constrained, Shape::Ring, 10.0, palette.constrained)]
+        {
             let marks = spaced(&path, SPACING * self.length());
             let mark = |at| Marker::new(at, shape, size, color).outlined(palette.halo, 1.25).through(0.85);
             scene.markers.extend(marks.into_iter().map(mark));
@@ -144,7 +143,7 @@ impl Signs<'_> {
         let Some(model) = self.model(self.time) else { return };
         let (s, c) = self.plant.command(self.time).0.sin_cos_delta();
         self.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
-        let triangle = self.sign(model, Shape::Triangle, 16.0, palette.model);
+        let triangle = self.sign(model, Shape::Triangle, 15.0, palette.model);
         let Some(sensor) = self.sensed(sample) else {
             scene.markers.push(triangle);
             return;
@@ -167,7 +166,7 @@ impl Signs<'_> {
             });
         }
         scene.markers.push(triangle);
-        scene.markers.push(self.sign(sensor, Shape::Dot, 20.0, palette.sensor).faded(strength));
+        scene.markers.push(self.sign(sensor, Shape::Dot, 18.0, palette.sensor).faded(strength));
     }
 
     /// A sign of this instant.

@@ -262,9 +262,21 @@ impl Page {
             _ => "",
         };
         let code = if key == " " { "Space" } else { key };
+        // Without its old number a key looks to eframe like one of a phone's soft keyboard, which it leaves alone.
+        let number = match key {
+            "Tab" => 9,
+            "Enter" => 13,
+            "Escape" => 27,
+            "End" => 35,
+            "Home" => 36,
+            "ArrowLeft" => 37,
+            "ArrowRight" => 39,
+            key => key.to_ascii_uppercase().bytes().next().map_or(0, u32::from),
+        };
         for (what, text) in [("keyDown", text), ("keyUp", "")] {
-            self.chromium
-                .call("Input.dispatchKeyEvent", json!({ "type": what, "key": key, "code": code, "text": text }));
+            let event =
+                json!({ "type": what, "key": key, "code": code, "text": text, "windowsVirtualKeyCode": number });
+            self.chromium.call("Input.dispatchKeyEvent", event);
             self.frames();
         }
     }
