@@ -378,11 +378,10 @@ fn every_input_has_a_name_and_nothing_leaves_the_page() {
     }
 }
 
-/// Writes pictures of the page for the eye into the folder that `UI_PICTURES` names: `cargo test --features app --test ui -- --ignored`.
+/// Writes pictures of the page for the eye into the folder that `CENTRODE_PICTURES` names: `cargo test --all-features --test ui`.
 #[test]
-#[ignore = "for the eye"]
 fn pictures() {
-    let Some(folder) = std::env::var_os("UI_PICTURES") else { return };
+    let Some(folder) = std::env::var_os("CENTRODE_PICTURES") else { return };
     let sizes = [
         ("desk", 1440.0, 900.0),
         ("large", 1920.0, 1080.0),
