@@ -118,7 +118,7 @@ impl PoseFilter {
 }
 
 impl Orientation {
-    /// The rotation vector of the last step in {B}, rad: [Ω_s]^∨ Δt with Ω_s = Ṙ_s R_sᵀ (Eq. 18), in which the
+    /// The rotation vector of the last step in {B}, rad: `[Ω_s]^∨ Δt` with Ω_s = Ṙ_s R_sᵀ (Eq. 18), in which the
     /// constant mounting R̃_g cancels.
     fn push(&mut self, angles: &[f64; 3]) -> Vec3 {
         match self {
