@@ -95,7 +95,7 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
             // Not at the root, so that an absolute address anywhere in the page shows.
             let page = serve::background(&page(options.dev, dist)?, "/deep/path/")?;
             run(cargo()
-                .args(["test", "--package", "centrode", "--all-features"])
+                .args(["test", "--workspace", "--all-features"])
                 .args(["--test", "browser", "--"])
                 .args(&options.arguments)
                 .env("CENTRODE_PAGE", page)
