@@ -2,28 +2,30 @@
 
 use centrode::app::{App, Host};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, Vec2, vec2};
+use egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
-use egui_kittest::{Harness, Node};
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use egui_kittest::{Harness, HarnessBuilder, Node};
+use egui_wgpu::{RenderState, RendererOptions};
 
 type Page = Harness<'static, Option<App>>;
 
 /// A page of a size, paused, as a person would find it.
 fn page_of(size: Vec2) -> Page {
-    let ui = |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let app = app.get_or_insert_with(|| App::new(ui.ctx(), None, Host { prefers_reduced_motion: true }));
-        app.ui(ui);
+    paused(build(Harness::builder().with_size(size), None))
+}
+
+fn build(builder: HarnessBuilder<Option<App>>, gpu: Option<RenderState>) -> Page {
+    let ui = move |ui: &mut egui::Ui, app: &mut Option<App>| {
+        app.get_or_insert_with(|| App::new(ui.ctx(), gpu.as_ref(), Host { prefers_reduced_motion: true })).ui(ui);
     };
     let setup = centrode::app::theme::install;
-    let mut page = Harness::builder()
-        .with_size(size)
-        .with_step_dt(0.1)
-        .with_theme(egui::Theme::Dark)
-        .with_context_setup(setup)
-        .build_ui_state(ui, None);
+    builder.with_step_dt(0.1).with_theme(egui::Theme::Dark).with_context_setup(setup).build_ui_state(ui, None)
+}
+
+fn paused(mut page: Page) -> Page {
     page.get_by_label("Pause").click();
-    page.step();
-    page.step();
+    page.run_steps(2);
     page
 }
 
@@ -49,7 +51,11 @@ fn type_into(page: &mut Page, label: &str, text: &str) {
     let name = format!("{label} value");
     page.get_by_role_and_label(Role::TextInput, &name).click();
     page.run_steps(2);
-    page.event(Event::Text(text.into()));
+    if text.is_empty() {
+        page.key_press(Key::Delete);
+    } else {
+        page.event(Event::Text(text.into()));
+    }
     page.run_steps(2);
     page.key_press(Key::Enter);
     page.run_steps(2);
@@ -74,10 +80,7 @@ fn report(page: &Page) -> serde_json::Value {
 
 #[test]
 fn it_opens_playing_on_a_contact_that_is_detected() {
-    let ui = |ui: &mut egui::Ui, app: &mut Option<App>| {
-        app.get_or_insert_with(|| App::new(ui.ctx(), None, Host::default())).ui(ui);
-    };
-    let mut page: Page = Harness::builder().with_size(vec2(1440.0, 900.0)).with_step_dt(0.1).build_ui_state(ui, None);
+    let mut page = build(Harness::builder().with_size(vec2(1440.0, 900.0)), None);
     let before = app(&page).state().time;
     page.run_steps(5);
     assert!(app(&page).state().playing && app(&page).state().time > before + 0.4);
@@ -173,7 +176,7 @@ fn a_short_filter_is_restless() {
 
 #[test]
 fn nonsense_keeps_the_value_and_says_so() {
-    let mut page = page();
+    let mut page = page_of(vec2(1440.0, 1900.0));
     let before = app(&page).state().scenario.clone();
     for (label, text, said) in [
         ("Contact time", "soon", "is not a number"),
@@ -334,6 +337,7 @@ fn presets_theme_groups_and_help() {
     click(&mut page, "Theme: system");
     assert!(page.query_by_label("Theme: light").is_some());
     click(&mut page, "Help");
+    page.run_steps(2);
     assert!(page.query_by_label_contains("What the fixed centrode is").is_some(), "{:?}", app(&page).state().help);
     page.key_press(Key::Escape);
     page.run_steps(3);
@@ -388,8 +392,12 @@ fn pictures() {
     ];
     for (name, width, height) in sizes {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
-            let mut page = page_of(vec2(width, height));
-            page.set_pixels_per_point(if width < 500.0 { 2.0 } else { 1.0 });
+            let gpu = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+            let builder = Harness::builder()
+                .with_size(vec2(width, height))
+                .with_pixels_per_point(if width < 500.0 { 2.0 } else { 1.0 })
+                .renderer(WgpuTestRenderer::from_render_state(gpu.clone()));
+            let mut page = paused(build(builder, Some(gpu)));
             // The choice of the page wins over the harness's theme.
             click(&mut page, "Theme: system");
             if theme == egui::Theme::Dark {
@@ -410,6 +418,14 @@ fn pictures() {
                 page.remove_cursor();
                 page.run_steps(2);
                 save(&mut page, "-sheet");
+                click(&mut page, "Controls");
+                page.run_steps(3);
+                for tab in ["Plots", "Bending plane"] {
+                    click(&mut page, tab);
+                    page.remove_cursor();
+                    page.run_steps(2);
+                    save(&mut page, &format!("-{}", tab.to_lowercase().replace(' ', "-")));
+                }
             }
             if name == "desk" {
                 type_into(&mut page, "Contact time", "soon");
@@ -428,4 +444,43 @@ fn pictures() {
             }
         }
     }
+}
+
+#[test]
+fn a_finger_that_scrolls_the_controls_changes_none() {
+    let mut page = page_of(vec2(390.0, 844.0));
+    click(&mut page, "Controls");
+    page.run_steps(3);
+    let before = app(&page).state().scenario.clone();
+    let start = slider(&page, "Contact time").rect().center() + vec2(60.0, 0.0);
+    let finger = |page: &mut Page, at: egui::Pos2, phase: TouchPhase| {
+        page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos: at, force: None });
+        if phase == TouchPhase::Move {
+            page.event(Event::PointerMoved(at));
+        } else {
+            let pressed = phase == TouchPhase::Start;
+            page.event(Event::PointerMoved(at));
+            page.event(Event::PointerButton {
+                pos: at,
+                button: egui::PointerButton::Primary,
+                pressed,
+                modifiers: Modifiers::NONE,
+            });
+        }
+        page.step();
+    };
+    finger(&mut page, start, TouchPhase::Start);
+    for i in 1..=6 {
+        finger(&mut page, start - vec2(0.0, 10.0 * i as f32), TouchPhase::Move);
+    }
+    finger(&mut page, start - vec2(0.0, 60.0), TouchPhase::End);
+    page.run_steps(2);
+    assert_eq!(app(&page).state().scenario, before);
+    let start = slider(&page, "Contact time").rect().center();
+    finger(&mut page, start, TouchPhase::Start);
+    for i in 1..=6 {
+        finger(&mut page, start + vec2(10.0 * i as f32, 0.0), TouchPhase::Move);
+    }
+    finger(&mut page, start + vec2(60.0, 0.0), TouchPhase::End);
+    assert_ne!(app(&page).state().scenario, before);
 }

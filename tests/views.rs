@@ -67,6 +67,7 @@ fn harness<'a>(page: Page, size: Vec2, theme: egui::Theme) -> Harness<'a, Page> 
         .with_theme(theme)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(|ui, page: &mut Page| page.show(ui), page);
     harness.run();
     harness
@@ -227,29 +228,6 @@ fn both_views_draw_in_every_size_and_theme() {
     }
 }
 
-/// What one frame of each view costs, printed by `--nocapture --ignored`; build with optimisation.
-#[test]
-#[ignore = "a measurement"]
-fn what_a_frame_costs() {
-    let mut page = Page::new("bench", 6.9);
-    let context = egui::Context::default();
-    const FRAMES: u32 = 200;
-    let mut took = [std::time::Duration::ZERO; 2];
-    for _ in 0..FRAMES {
-        let mut output = context.run_ui(egui::RawInput::default(), |ui| {
-            let mut out = Vec::new();
-            let start = std::time::Instant::now();
-            ui.allocate_ui(vec2(1200.0, 240.0), |ui| plots(ui, &page.run, page.cursor, &mut page.state, &mut out));
-            took[0] += start.elapsed();
-            let start = std::time::Instant::now();
-            ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &page.run, page.cursor, &mut out));
-            took[1] += start.elapsed();
-        });
-        output.textures_delta.clear();
-    }
-    println!("three plots {:?}, plane {:?} per frame", took[0] / FRAMES, took[1] / FRAMES);
-}
-
 /// The row of plots under a 3D view, with the pointer in one of them: all three answer.
 #[test]
 fn the_plots_fit_in_a_low_row() {
@@ -278,6 +256,7 @@ fn the_plane_fits_in_a_low_place() {
         .with_theme(egui::Theme::Light)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
             |ui, page: &mut Page| plane(ui, &page.run, page.cursor, &mut page.log),
             Page::new("bench", 7.1),
@@ -294,6 +273,7 @@ fn plots_alone(name: &str, size: Vec2) -> Harness<'static, Page> {
         .with_theme(egui::Theme::Dark)
         .with_pixels_per_point(2.0)
         .wgpu()
+        .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
             |ui, page: &mut Page| {
                 let mut out = Vec::new();

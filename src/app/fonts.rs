@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use egui::epaint::text::FontTweak;
 use egui::{FontData, FontDefinitions, FontFamily, FontId, TextStyle};
 
 const REGULAR: &[u8] = include_bytes!("../../assets/fonts/Inter-Regular.otf");
@@ -32,9 +31,7 @@ pub fn regular(size: f32) -> FontId {
 pub fn definitions() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     for (name, bytes) in [("regular", REGULAR), ("strong", SEMIBOLD)] {
-        // Hinting would round the widths of figures apart.
-        let tweak = FontTweak { hinting: Some(false), ..FontTweak::default() };
-        fonts.font_data.insert(name.into(), Arc::new(FontData::from_static(bytes).tweak(tweak)));
+        fonts.font_data.insert(name.into(), Arc::new(FontData::from_static(bytes)));
     }
     for family in [FontFamily::Proportional, FontFamily::Monospace] {
         fonts.families.insert(family, vec!["regular".into()]);

@@ -78,10 +78,10 @@ impl Layout {
         let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
         let title = rest.top(46.0);
         let controls = rest.left(306.0);
-        let plots = rest.bottom((page.height() * 0.28).clamp(180.0, 340.0));
+        let plots = rest.bottom((page.height() * 0.25).clamp(180.0, 330.0));
         let transport = rest.bottom(FLAT);
         let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
-        let readout = side.bottom((side.0.height() * 0.52).clamp(230.0, 330.0).min(side.0.height() - 120.0));
+        let readout = side.bottom((side.0.height() * 0.48).clamp(254.0, 300.0).min(side.0.height() - 130.0));
         Self {
             controls: Some(controls),
             plane: Some(side.0),
@@ -164,6 +164,13 @@ pub fn card<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui
     let theme = super::theme::Theme::of(ui);
     ui.painter().rect_filled(rect, f32::from(super::theme::ROUND), theme.panel);
     inside(ui, name, rect, content)
+}
+
+/// Rounds the corners of a card whose content fills it.
+pub fn round(ui: &Ui, rect: Rect) {
+    let theme = super::theme::Theme::of(ui);
+    let edge = egui::Stroke::new(0.5 * GAP, theme.surface);
+    ui.painter().rect_stroke(rect, f32::from(super::theme::ROUND), edge, egui::StrokeKind::Outside);
 }
 
 /// Shows content in a rectangle.

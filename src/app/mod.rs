@@ -180,10 +180,11 @@ impl App {
         panels::title::title(ui, layout.title, state, layout.sheet, out);
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(ToString::to_string);
-            let inputs = Inputs { state, base, notes, refusal };
+            let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| panels::controls::controls(ui, &inputs, out));
         }
         layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view, out));
+        layout::round(ui, layout.view);
         chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), host.prefers_reduced_motion);
         layout::card(ui, "transport", layout.transport, |ui| {
             panels::transport::transport(ui, layout.transport, state, run, out);

@@ -25,6 +25,8 @@ macro_rules! field {
 
 type Range = fn(&Scenario) -> (f64, f64);
 
+/// A row, its columns in order.
+#[expect(clippy::too_many_arguments)]
 const fn row(
     key: &'static str,
     label: &'static str,

@@ -1,10 +1,10 @@
 //! The moving average over the tracker's readings, and the backward difference behind it.
 
-use super::orientation::{Quaternion, from_euler, quaternion_from_euler, vector_of_ratio, vee};
+use super::orientation::{Quaternion, from_euler_sin_cos, quaternion_from_euler, vector_of_ratio, vee};
 use super::scenario::{Averaging, Filter};
 use super::tracker::Reading;
 use crate::model::{Mat3, Twist, Vec3};
-use libm::sqrt;
+use libm::{sincos, sqrt};
 
 /// The mean of the last N vectors, at a cost that does not depend on N.
 ///
@@ -86,7 +86,7 @@ pub struct PoseFilter {
 
 #[derive(Debug, Clone)]
 enum Orientation {
-    Readings { average: MovingAverage<3>, before: Option<Mat3> },
+    Readings { average: MovingAverage<3>, sin_cos: [(f64, f64); 3], before: Option<Mat3> },
     Rotations { average: MovingAverage<4>, last: Option<([f64; 3], Quaternion)>, before: Quaternion },
 }
 
@@ -96,7 +96,9 @@ impl PoseFilter {
     pub fn new(settings: &Filter, rate: f64) -> Self {
         let length = settings.length as usize;
         let orientation = match settings.averaging {
-            Averaging::Readings => Orientation::Readings { average: MovingAverage::new(length), before: None },
+            Averaging::Readings => {
+                Orientation::Readings { average: MovingAverage::new(length), sin_cos: [(0.0, 1.0); 3], before: None }
+            }
             Averaging::Rotations => {
                 Orientation::Rotations { average: MovingAverage::new(length), last: None, before: [0.0; 4] }
             }
@@ -120,13 +122,19 @@ impl Orientation {
     /// constant mounting R̃_g cancels.
     fn push(&mut self, angles: &[f64; 3]) -> Vec3 {
         match self {
-            Self::Readings { average, before } => {
+            Self::Readings { average, sin_cos, before } => {
                 let (mean, change) = average.push(angles);
                 let previous = *before;
                 if previous.is_some() && change == [0.0; 3] {
                     return Vec3::zeros();
                 }
-                let rotation = from_euler(&mean);
+                // In most experiments one of the three angles moves: the sines of the others stay.
+                for i in 0..3 {
+                    if previous.is_none() || change[i] != 0.0 {
+                        sin_cos[i] = sincos(mean[i]);
+                    }
+                }
+                let rotation = from_euler_sin_cos(sin_cos);
                 *before = Some(rotation);
                 previous.map_or_else(Vec3::zeros, |previous| vee(&(rotation * previous.transpose())))
             }

@@ -6,7 +6,13 @@ use libm::{asin, atan2, sincos};
 /// `Rz(azimuth) Ry(elevation) Rx(roll)`, all in rad.
 #[must_use]
 pub fn from_euler(angles: &[f64; 3]) -> Mat3 {
-    let [(sa, ca), (se, ce), (sr, cr)] = angles.map(sincos);
+    from_euler_sin_cos(&angles.map(sincos))
+}
+
+/// [`from_euler`] from the sine and cosine of each angle.
+#[must_use]
+pub fn from_euler_sin_cos(angles: &[(f64, f64); 3]) -> Mat3 {
+    let [(sa, ca), (se, ce), (sr, cr)] = *angles;
     Mat3::new(
         ca * ce,
         ca * se * sr - sa * cr,

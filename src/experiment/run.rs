@@ -199,7 +199,8 @@ impl Run {
     }
 }
 
-/// FNV-1a over the channels' bits; every NaN counts as the same one, for its bits mean nothing.
+/// A running hash over the channels' bits, a word at a time (FNV's multiplier with a rotation, so that high bits
+/// reach low ones). Every NaN counts as the same one, for its bits mean nothing.
 #[derive(Debug, Clone)]
 struct Fingerprint(u64);
 
@@ -211,10 +212,8 @@ impl Fingerprint {
     fn add(&mut self, sample: &Sample) {
         for channel in CHANNELS {
             let value = (channel.value)(sample);
-            let bits = if value.is_nan() { f64::NAN.to_bits() & (u64::MAX >> 1) } else { value.to_bits() };
-            for byte in bits.to_le_bytes() {
-                self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
+            let bits = if value.is_nan() { u64::MAX } else { value.to_bits() };
+            self.0 = (self.0.rotate_left(23) ^ bits).wrapping_mul(0x0100_0000_01b3);
         }
     }
 

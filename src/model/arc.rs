@@ -46,7 +46,7 @@ impl Arc {
         let bend = self.configuration.bend();
         let share = self.share(s);
         let angle = Angle::new(bend * share);
-        let (sin, cos, versine) = (angle.sin(), angle.cos(), angle.versine());
+        let (sin, cos, versine) = (angle.sine(), angle.cosine(), angle.versine());
         let versine_ratio = angle.value() * angle.versinc();
         let pose = Pose {
             position: Vec3::new(s * cd * versine_ratio, -s * sd * versine_ratio, s * angle.sinc()),

@@ -47,13 +47,13 @@ impl Angle {
 
     /// `sin x`.
     #[must_use]
-    pub fn sin(self) -> f64 {
+    pub fn sine(self) -> f64 {
         2.0 * self.sin_half * self.cos_half
     }
 
     /// `cos x`.
     #[must_use]
-    pub fn cos(self) -> f64 {
+    pub fn cosine(self) -> f64 {
         (self.cos_half - self.sin_half) * (self.cos_half + self.sin_half)
     }
 
@@ -66,7 +66,7 @@ impl Angle {
     /// `sin x / x`; 1 at zero.
     #[must_use]
     pub fn sinc(self) -> f64 {
-        if self.value == 0.0 { 1.0 } else { self.sin() / self.value }
+        if self.value == 0.0 { 1.0 } else { self.sine() / self.value }
     }
 
     /// `(1 − cos x) / x²`; 1/2 at zero.
@@ -91,7 +91,7 @@ impl Angle {
             let square = x * x;
             x * SLOPE_SERIES.iter().rev().fold(0.0, |sum, term| term - square * sum)
         } else {
-            (self.sin() - x * self.cos()) / (x * x)
+            (self.sine() - x * self.cosine()) / (x * x)
         }
     }
 

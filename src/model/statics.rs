@@ -2,7 +2,7 @@
 
 use super::joints::joint_jacobian_per_bend;
 use super::{Arc, Configuration, Jacobian, Vec3, Wrench};
-use libm::hypot;
+use libm::sqrt;
 
 /// What one segment is made of.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,7 +38,14 @@ impl Covector {
     /// Euclidean length, N·m.
     #[must_use]
     pub fn norm(&self) -> f64 {
-        hypot(self.theta_l, self.delta())
+        sqrt(self.norm_squared())
+    }
+
+    /// Square of [`Covector::norm`], N²·m².
+    #[must_use]
+    pub fn norm_squared(&self) -> f64 {
+        let delta = self.delta();
+        self.theta_l * self.theta_l + delta * delta
     }
 
     /// `self − other`, both of one configuration.
@@ -171,10 +178,10 @@ impl Segment {
         // A sign choice and its opposite have one norm: four of the eight suffice.
         let signs = [[1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0], [1.0, -1.0, -1.0]];
         let largest = signs
-            .map(|sign| self.generalised_force(configuration, &tau_lc.component_mul(&Vec3::from(sign))).norm())
+            .map(|sign| self.generalised_force(configuration, &tau_lc.component_mul(&Vec3::from(sign))).norm_squared())
             .into_iter()
             .fold(0.0, f64::max);
-        epsilon_tau * largest
+        epsilon_tau * sqrt(largest)
     }
 }
 

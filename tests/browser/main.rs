@@ -16,6 +16,7 @@
 //! with role, name, value and bounds (`?test` only); `page.picture()` gives pixels; `page.eval(script)` runs JavaScript, in which
 //! `centrode` holds the wasm module's exports. Software rendering is slow: wait for a state, never for time alone.
 
+mod core;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;

@@ -58,7 +58,7 @@ fn a_slider_obeys_mouse_and_keyboard() {
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     page.type_number("Contact disk", "0");
     page.wait("no detection", |page| page.data("detectionTime").is_none().then_some(()));
-    assert_eq!(page.widget("SpinButton", "Contact disk").number, Some(0.0));
+    assert_eq!(page.widget("Slider", "Contact disk").number, Some(0.0));
     page.drag("Slider", "Contact disk", 0.05, 0.98);
     page.wait("a detection", |page| page.number("detectionTime"));
     assert_eq!(page.problems(), Vec::<String>::new());

@@ -24,6 +24,8 @@ pub struct Inputs<'a> {
     pub notes: &'a BTreeMap<&'static str, String>,
     /// Why the scenario as a whole is not the one that was run.
     pub refusal: Option<String>,
+    /// Whether rows are to be large enough for a finger.
+    pub touch: bool,
 }
 
 /// Shows the controls.
@@ -62,14 +64,15 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
     }
     ui.push_id(group.name, |ui| {
         let State { scenario, remembered, .. } = inputs.state;
+        let (base, touch) = (inputs.base, inputs.touch);
         let note = |key| inputs.notes.get(key).map(String::as_str);
         for control in group.controls {
             let remembered = remembered.get(control.key).copied().or_else(|| control.value(inputs.base));
-            let context = Context { scenario, base: inputs.base, note: note(control.key), remembered };
+            let context = Context { scenario, base, note: note(control.key), remembered, touch };
             row::number(ui, control, &context, out);
         }
         for choice in group.choices {
-            let context = Context { scenario, base: inputs.base, note: note(choice.key), remembered: None };
+            let context = Context { scenario, base, note: note(choice.key), remembered: None, touch };
             row::choice(ui, choice, &context, out);
         }
     });

@@ -6,6 +6,7 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::text::rich;
 
 /// Titles and texts.
 pub const PARAGRAPHS: &[(&str, &str)] = &[
@@ -72,14 +73,12 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
                 for (title, body) in PARAGRAPHS {
                     ui.add_space(6.0);
                     ui.label(RichText::new(*title).font(fonts::strong(13.5)).color(theme.ink));
-                    ui.label(
-                        RichText::new(*body)
-                            .size(13.5)
-                            .color(theme.ink.lerp_to_gamma(theme.dim, 0.4))
-                            .line_height(Some(20.0)),
-                    );
+                    let mut text = rich(body, 13.5, theme.ink.lerp_to_gamma(theme.dim, 0.4));
+                    text.sections.iter_mut().for_each(|section| section.format.line_height = Some(20.0));
+                    ui.label(text);
                 }
                 ui.add_space(10.0);
+                ui.spacing_mut().interact_size.y = 0.0;
                 egui::Grid::new("keys").spacing(vec2(20.0, 6.0)).show(ui, |ui| {
                     for (key, what) in KEYS {
                         ui.label(RichText::new(*key).font(fonts::strong(13.0)).color(theme.ink));

@@ -14,8 +14,9 @@ use crate::app::widgets::text;
 use crate::app::widgets::toggle::toggle;
 use crate::experiment::Scenario;
 
-const LINE: f32 = 24.0;
-const RAIL: f32 = 19.0;
+/// Heights of the line with the field and of the slider; larger for a finger.
+const HEIGHTS: (f32, f32) = (24.0, 19.0);
+const TOUCH: (f32, f32) = (32.0, 30.0);
 const FIELD: f32 = 84.0;
 
 /// What a row needs to know besides its control.
@@ -28,6 +29,8 @@ pub struct Context<'a> {
     pub note: Option<&'a str>,
     /// The value to show while it is switched off, in the unit shown.
     pub remembered: Option<f64>,
+    /// Whether it is to be large enough for a finger.
+    pub touch: bool,
 }
 
 /// Label and reset button; returns whether it was reset.
@@ -47,10 +50,11 @@ fn heading(ui: &mut Ui, rect: Rect, label: &str, tip: &str, differs: bool) -> bo
 
 /// Shows a number's row.
 pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out: &mut Vec<Command>) {
-    let Context { scenario, base, note, remembered } = context;
+    let Context { scenario, base, note, remembered, touch } = context;
+    let (line_height, rail_height) = if *touch { TOUCH } else { HEIGHTS };
     let width = ui.available_width();
-    let (rect, _) = ui.allocate_exact_size(vec2(width, LINE + RAIL), Sense::hover());
-    let line = Rect::from_min_size(rect.min, vec2(width, LINE));
+    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
+    let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     if heading(ui, line, control.label, control.tip, control.differs(scenario, base)) {
         out.push(Command::Reset(control));
     }
@@ -64,13 +68,13 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
         out.push(Command::Enter(control, typed));
     }
     if control.off.is_some() {
-        let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, LINE));
+        let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
         if toggle(ui, place, &format!("{} on", control.label), value.is_some()) {
             out.push(Command::Switch(control, value.is_none()));
         }
     }
 
-    let track = Rect::from_min_size(line.left_bottom(), vec2(width, RAIL));
+    let track = Rect::from_min_size(line.left_bottom(), vec2(width, rail_height));
     let spoken = if unit.is_empty() { shown } else { format!("{shown} {unit}") };
     let moved = slider(
         ui,
@@ -100,8 +104,9 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
 /// Shows a choice's row.
 pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: &mut Vec<Command>) {
     let width = ui.available_width();
-    let (rect, _) = ui.allocate_exact_size(vec2(width, LINE + 28.0), Sense::hover());
-    let line = Rect::from_min_size(rect.min, vec2(width, LINE));
+    let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
+    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + 28.0), Sense::hover());
+    let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     if heading(ui, line, choice.label, choice.tip, choice.differs(context.scenario, context.base)) {
         out.push(Command::ResetChoice(choice));
     }

@@ -22,7 +22,7 @@ pub const TALL: f32 = 104.0;
 /// Shows playback; in two rows where it is narrow.
 pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Command>) {
     let narrow = rect.height() > FLAT + 1.0;
-    let size = if narrow { 44.0 } else { 34.0 };
+    let size = if narrow { 40.0 } else { 34.0 };
     let y = if narrow { rect.bottom() - 30.0 } else { rect.center().y };
     let mut x = rect.left() + if narrow { 8.0 } else { 10.0 };
     let mut place = |width: f32| {
@@ -30,7 +30,8 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
         Rect::from_center_size(pos2(x - width / 2.0, y), vec2(width - 2.0, size))
     };
 
-    if icon::button(ui, place(size), Icon::ToStart, "To start", Look::Plain).clicked() {
+    // On the narrowest phones the scrub bar alone goes to the start.
+    if rect.width() >= 370.0 && icon::button(ui, place(size), Icon::ToStart, "To start", Look::Plain).clicked() {
         out.push(Command::Seek(0.0));
     }
     if icon::button(ui, place(size), Icon::StepBack, "Step back", Look::Plain).clicked() {
@@ -46,7 +47,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
     }
     let theme = Theme::of(ui);
     let clock = fixed(state.time, 3);
-    let at = pos2(x + 12.0, y);
+    let at = pos2(x + if narrow { 6.0 } else { 12.0 }, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
     let unit = text::paint(
         ui,
@@ -56,7 +57,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
         fonts::regular(13.0),
         theme.dim,
     );
-    let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + 16.0;
+    let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + 10.0;
 
     let mut right = rect.right() - if narrow { 6.0 } else { 10.0 };
     right -= size;
@@ -65,8 +66,8 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
     if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
         out.push(Command::ToggleLoop);
     }
-    let rail_width = if narrow { (right - left - 44.0).clamp(36.0, 110.0) } else { 92.0 };
-    right -= 8.0;
+    let rail_width = if narrow { (right - left - 46.0).clamp(30.0, 110.0) } else { 92.0 };
+    right -= if narrow { 4.0 } else { 8.0 };
     speed(ui, pos2(right, y), rail_width, size, state, out);
     right -= rail_width + 56.0;
 
@@ -82,7 +83,7 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
     let theme = Theme::of(ui);
     let spoken = format!("{}×", number(state.speed, 1));
     text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
-    let track = Rect::from_min_max(right - vec2(width + 42.0, height / 2.0), right + vec2(-42.0, height / 2.0));
+    let track = Rect::from_min_max(right - vec2(width + 38.0, height / 2.0), right + vec2(-38.0, height / 2.0));
     let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
     let (response, moved) = slider::slider(
         ui,

@@ -47,8 +47,10 @@ pub fn field(ui: &mut Ui, rect: Rect, field: &Field<'_>) -> Option<String> {
         text::paint(ui, right, Align2::RIGHT_CENTER, field.unit, fonts::regular(12.0), theme.dim).width() + 4.0
     };
 
-    let inside = Rect::from_min_max(rect.min, rect.max - vec2(unit_width + 8.0, 2.0));
+    let inside = Rect::from_min_max(rect.min, rect.max - vec2(unit_width + 8.0, 0.0));
     let mut child = ui.new_child(UiBuilder::new().max_rect(inside).layout(Layout::right_to_left(Align::Center)));
+    // No least height: the text is to stand in the middle.
+    child.spacing_mut().interact_size.y = 0.0;
     let output = TextEdit::singleline(&mut typed)
         .id(id)
         .frame(egui::Frame::NONE)

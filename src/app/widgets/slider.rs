@@ -1,7 +1,8 @@
 //! A slider: a thin rail, the part up to the value in the accent, a round handle, a notch where the preset is.
 
 use egui::accesskit::{Action, ActionData};
-use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2};
+use egui::style::ScrollAnimation;
+use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use super::rail::Rail;
 use crate::app::control::Scale;
@@ -45,7 +46,7 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
     let response =
         ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     let mut asked = None;
-    if let (true, Some(pointer)) = (response.is_pointer_button_down_on(), response.interact_pointer_pos()) {
+    if let (true, Some(pointer)) = (held(ui, &response), response.interact_pointer_pos()) {
         let (left, right) = way(rect);
         asked = Some(slider.rail.value(f64::from((pointer.x - left) / (right - left).max(1.0))));
     }
@@ -85,6 +86,34 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
     describe(ui, &response, slider);
     let asked = asked.filter(|asked| asked.is_finite() && (asked.to_bits() != slider.value.to_bits() || !slider.on));
     (response, asked)
+}
+
+/// Whether the pointer asks for a value. A finger may only want to scroll what the slider is in, so it has to move along
+/// the rail, or tap.
+fn held(ui: &Ui, response: &Response) -> bool {
+    let id = response.id.with("finger");
+    if !response.is_pointer_button_down_on() {
+        ui.data_mut(|data| data.remove_temp::<bool>(id));
+        return response.clicked();
+    }
+    match ui.data(|data| data.get_temp::<bool>(id)) {
+        Some(true) => true,
+        Some(false) => {
+            let moved = vec2(0.0, response.drag_delta().y);
+            ui.scroll_with_delta_animation(moved, ScrollAnimation::none());
+            false
+        }
+        None if !ui.input(|input| input.any_touches()) => true,
+        None => {
+            let moved = ui.input(|input| input.pointer.total_drag_delta()).unwrap_or_default();
+            let along = moved.x.abs() >= moved.y.abs();
+            if moved.length() < 6.0 {
+                return false;
+            }
+            ui.data_mut(|data| data.insert_temp(id, along));
+            along
+        }
+    }
 }
 
 fn describe(ui: &Ui, response: &Response, slider: &Slider<'_>) {
@@ -136,12 +165,14 @@ pub fn slider(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option
     let bar = |from: f32, to: f32, color| {
         painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - 1.5..=y + 1.5), 1.5, color)
     };
-    bar(rect.left(), rect.right(), theme.faint);
+    let stops = slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0;
+    let (left, right) = if stops { way(rect) } else { (rect.left(), rect.right()) };
+    bar(left, right, theme.faint);
     let two_sided = slider.rail.range.0 < 0.0;
-    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { rect.left() };
+    let origin = if two_sided { at(rect, slider.rail.place(0.0)) } else { left };
     let filled = if slider.on { theme.accent } else { theme.dim.gamma_multiply(0.5) };
     bar(origin.min(x), origin.max(x), filled);
-    if slider.rail.scale == Scale::Stops && slider.rail.range.1 <= 12.0 {
+    if stops {
         for stop in 0..=slider.rail.range.1 as u32 {
             let stop = f64::from(stop);
             let color = if stop <= shown { filled } else { theme.faint };

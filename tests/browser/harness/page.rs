@@ -245,7 +245,7 @@ impl Page {
     /// Types a number into the field beside a slider and presses Enter.
     #[track_caller]
     pub fn type_number(&mut self, label: &str, text: &str) {
-        self.click("SpinButton", label);
+        self.click("TextInput", &format!("{label} value"));
         self.wait("the field to take text", |page| {
             (page.eval("document.activeElement?.tagName") == "INPUT").then_some(())
         });

@@ -1,0 +1,45 @@
+//! What one frame of each view costs on the CPU: `cargo bench --features app --bench views`.
+
+use centrode::app::plane::plane;
+use centrode::app::plots::{PlotState, plots};
+use centrode::experiment::preset::find;
+use centrode::experiment::simulate;
+use centrode::scene::palette::Palette;
+use centrode::scene::view::{ViewOptions, view};
+use criterion::{Criterion, criterion_group, criterion_main};
+use egui::vec2;
+use std::hint::black_box;
+
+/// A time within the contact, s.
+const CURSOR: f64 = 6.9;
+
+fn views(c: &mut Criterion) {
+    let run =
+        find("bench").and_then(|preset| preset.scenario()).and_then(|scenario| simulate(&scenario)).expect("bench");
+    let mut group = c.benchmark_group("frame");
+    let options = ViewOptions { palette: Palette::DARK, pulse: 0.0 };
+    group.bench_function("scene of the 3D view", |b| b.iter(|| view(black_box(&run), CURSOR, &options)));
+    let context = egui::Context::default();
+    centrode::app::theme::install(&context);
+    let mut state = PlotState::default();
+    group.bench_function("three plots", |b| {
+        b.iter(|| {
+            context.run_ui(egui::RawInput::default(), |ui| {
+                let mut out = Vec::new();
+                ui.allocate_ui(vec2(1200.0, 240.0), |ui| plots(ui, &run, CURSOR, &mut state, &mut out));
+            })
+        });
+    });
+    group.bench_function("bending plane", |b| {
+        b.iter(|| {
+            context.run_ui(egui::RawInput::default(), |ui| {
+                let mut out = Vec::new();
+                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &run, CURSOR, &mut out));
+            })
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, views);
+criterion_main!(benches);

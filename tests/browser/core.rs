@@ -1,0 +1,93 @@
+//! The page computes what the headless command computes, to the last bit, and shows it.
+
+use crate::harness::{Area, Options, Page, Renderer};
+use centrode::experiment::preset::PRESETS;
+use centrode::experiment::simulate;
+use std::process::Command;
+
+/// Detection time (s) that `centrode run` gives for the preset on which the page opens, with overrides.
+fn headless(sets: &[&str]) -> Option<f64> {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
+    command.args(["run", "--json", "--preset", PRESETS[0].name]);
+    for set in sets {
+        command.args(["--set", set]);
+    }
+    let output = command.output().expect("the command starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    report["detection"]["time"].as_f64()
+}
+
+#[test]
+fn every_preset_has_the_same_bits_as_natively() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    for preset in PRESETS {
+        let native = simulate(&preset.scenario().expect(preset.name)).expect("valid").fingerprint();
+        let script = format!("centrode.fingerprint({})", serde_json::json!(preset.toml));
+        assert_eq!(page.eval(&script), format!("{native:016x}"), "{}", preset.name);
+    }
+    let refused = page.eval("centrode.fingerprint('[contact]\\ndisk = 9')");
+    assert!(refused.as_str().is_some_and(|message| message.contains("contact.disk = 9")), "{refused}");
+}
+
+#[test]
+fn controls_give_what_the_headless_command_gives() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    assert_eq!(page.number("detectionTime"), headless(&[]), "as it opens");
+    // A step sets an override and leaves the one before it.
+    for (label, text, set) in [
+        ("Contact disk", "3", "contact.disk=3"),
+        ("Contact disk", "0", "contact.disk=0"),
+        ("Contact disk", "2", "contact.disk=2"),
+        ("Filter length N", "250", "filter.length=250"),
+    ] {
+        let wanted = headless(&[set]);
+        page.type_number(label, text);
+        page.wait(&format!("{set} to give {wanted:?}"), |page| (page.number("detectionTime") == wanted).then_some(()));
+    }
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn dragging_the_contact_slider_moves_the_detection() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    for (to, disk) in [(0.98, 3), (0.02, 0), (0.667, 2)] {
+        page.drag("Slider", "Contact disk", 0.4, to);
+        let wanted = headless(&[&format!("contact.disk={disk}")]);
+        page.wait(&format!("disk {disk}"), |page| (page.number("detectionTime") == wanted).then_some(()));
+    }
+}
+
+#[track_caller]
+fn the_view_moves_with_playback(renderer: Renderer) {
+    let mut page = Page::open(renderer, "?test", Options { still: true, ..Options::default() });
+    let bounds = page.widget("Canvas", "3D view").bounds.expect("bounds");
+    let window = page.picture();
+    let [width, height] = [window.width as f64, window.height as f64];
+    let [x, y, w, h] = bounds;
+    let view = Area(x / width, y / height, (x + w) / width, (y + h) / height);
+    // Before the motion and at its end: the whole robot stands elsewhere.
+    page.click("Button", "Pause");
+    page.click("Button", "To start");
+    page.wait("the start", |page| (page.number("time") == Some(0.0)).then_some(()));
+    page.frames();
+    let straight = page.picture();
+    assert!(straight.colours(view) > 100, "a blank 3D view");
+    page.key("End");
+    page.wait("the end", |page| page.number("time").filter(|&time| time > 9.0));
+    page.frames();
+    let bent = page.picture();
+    let moved = bent.changed(&straight, view);
+    assert!(moved > 4000, "only {moved} pixels of the 3D view changed");
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn the_3d_view_moves_on_webgl() {
+    the_view_moves_with_playback(Renderer::WebGl);
+}
+
+#[test]
+fn the_3d_view_moves_on_webgpu() {
+    the_view_moves_with_playback(Renderer::WebGpu);
+}
