@@ -1,8 +1,8 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
-use centrode::app::theme;
 use centrode::app::viewport::{ViewState, viewport};
+use centrode::app::{layout, theme};
 use centrode::experiment::{preset, simulate};
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
@@ -39,6 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
                         let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
                         viewport(&mut view, &run, time, &mut state, &mut Vec::new());
+                        layout::round(&view, page.shrink(8.0));
                     });
                 page.run_ok();
                 let path = folder.join(format!("{name}-{time}-{look}-{form}.png"));

@@ -4,11 +4,11 @@ mod notes;
 
 use std::sync::Arc;
 
-use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
 use super::command::Command;
 use super::fonts;
-use super::theme::{ROUND, Theme};
+use super::theme::Theme;
 use super::widgets::icon::{self, Icon, Look};
 use crate::experiment::{Run, Scenario};
 use crate::render::{Frame, Renderer, ViewId};
@@ -87,10 +87,6 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out
     let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
-    // The picture's corners, in the colour of what is behind the card: a frame so wide that it covers them.
-    let (round, around) = (f32::from(ROUND), Stroke::new(0.5 * f32::from(ROUND), theme.surface));
-    ui.painter_at(rect).rect_stroke(rect, round, around, StrokeKind::Outside);
-
     let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
     let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
     notes::notes(ui, rect, &camera, run, &state.scene, vec![button, chip]);
