@@ -1,8 +1,9 @@
 //! `centrode model`: every quantity of the model in one configuration.
 
 use super::output::{Failure, json};
-use crate::experiment::plan::check_bend;
+use crate::experiment::plan::{LENGTHS, MAX_TURN, RADII, check_bend};
 use crate::experiment::scenario::Robot;
+use crate::experiment::text::number;
 use crate::model::joints::{joint_jacobian, joints};
 use crate::model::{Configuration, Constrained, Rate, Segment};
 use clap::Args;
@@ -95,8 +96,11 @@ impl ModelArgs {
             ep_ip: self.ep_ip.unwrap_or(default.ep_ip),
             es_is: self.es_is.unwrap_or(default.es_is),
         };
-        for (flag, value) in [("--length", segment.length), ("--pitch-radius", segment.pitch_radius)] {
-            demand(value > 0.0 && value <= 100.0, flag, value, "a number above 0 and at most 100 m")?;
+        for (flag, value, (least, most)) in
+            [("--length", segment.length, LENGTHS), ("--pitch-radius", segment.pitch_radius, RADII)]
+        {
+            let allowed = format!("a number from {} to {} m", number(least), number(most));
+            demand((least..=most).contains(&value), flag, value, &allowed)?;
         }
         for (flag, value) in [("--ep-ip", segment.ep_ip), ("--es-is", segment.es_is)] {
             demand((0.0..=1e12).contains(&value), flag, value, "a number from 0 to 1e12 N·m²")?;
@@ -111,7 +115,7 @@ impl ModelArgs {
         let configuration = Configuration::from_theta_l(self.theta_l, self.delta);
         check_bend(&segment, "--theta-l", self.theta_l, configuration.bend())
             .map_err(|error| Failure::Input(error.to_string()))?;
-        demand(self.delta.is_finite(), "--delta", self.delta, "a finite angle in rad")?;
+        demand(self.delta.abs() <= MAX_TURN, "--delta", self.delta, &format!("an angle within ±{MAX_TURN} rad"))?;
         for (flag, value) in [("--s", s), ("--contact", self.contact)] {
             demand((0.0..=length).contains(&value), flag, value, &format!("from 0 to the length, {length} m"))?;
         }
@@ -146,7 +150,7 @@ impl ModelArgs {
 }
 
 fn demand(ok: bool, flag: &str, value: f64, allowed: &str) -> Result<(), Failure> {
-    if ok { Ok(()) } else { Err(Failure::Input(format!("{flag} = {value} is not allowed: {allowed}"))) }
+    if ok { Ok(()) } else { Err(Failure::Input(format!("{flag} = {} is not allowed: {allowed}", number(value)))) }
 }
 
 fn table(out: &mut impl Write, answer: &Answer) -> std::io::Result<()> {
@@ -155,7 +159,13 @@ fn table(out: &mut impl Write, answer: &Answer) -> std::io::Result<()> {
         for (i, row) in rows.iter().enumerate() {
             let (title, unit) = if i == 0 { (title, unit) } else { ("", "") };
             write!(out, "{title:<22}")?;
-            row.iter().try_for_each(|x| write!(out, " {:>14.6}", x * scale))?;
+            row.iter().try_for_each(|x| match x * scale {
+                // A motion that is none has no axis.
+                x if x.is_nan() => write!(out, " {:>14}", "undefined"),
+                // What rounds to nothing has no sign.
+                x if x.abs() < 5e-7 => write!(out, " {:>14.6}", 0.0),
+                x => write!(out, " {x:>14.6}"),
+            })?;
             writeln!(out, "  {unit}")?;
         }
         Ok::<(), std::io::Error>(())

@@ -53,6 +53,9 @@ pub struct NewFile {
 impl NewFile {
     /// Opens a file to write; what already stands under the name stays until [`NewFile::finish`].
     pub fn create(path: &Path) -> Result<Self, Failure> {
+        // What a link points to is replaced, not the link.
+        let target = fs::canonicalize(path);
+        let path = target.as_deref().unwrap_or(path);
         // A device or a pipe cannot be replaced: it is written to as it is.
         let special = fs::metadata(path).is_ok_and(|meta| !meta.is_file());
         let part = (!special).then(|| {

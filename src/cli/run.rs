@@ -1,4 +1,4 @@
-//! `centrode run`: simulate one scenario; memory does not grow with its length.
+//! `centrode run`: simulate one scenario, sample by sample: a long run needs no more memory than a short one.
 
 use super::ScenarioArgs;
 use super::output::{Failure, NewFile, json};

@@ -53,8 +53,11 @@ impl<const D: usize> MovingAverage<D> {
         let mut change = [0.0; D];
         for (i, x) in next.iter().enumerate() {
             self.add(i, *x);
-            self.mean[i] = (self.sum[i] + self.error[i]) / count;
             change[i] = (x - gone[i]) / count;
+            // What does not change keeps its bits: a robot at rest has no speed, not one of a rounding error.
+            if change[i] != 0.0 || count == 1.0 {
+                self.mean[i] = (self.sum[i] + self.error[i]) / count;
+            }
         }
         (self.mean, change)
     }

@@ -9,6 +9,21 @@ use thiserror::Error;
 
 /// The longest run, in samples.
 pub const MAX_SAMPLES: f64 = 1e8;
+/// The longest filter, in samples: it holds as many readings.
+pub const MAX_FILTER: u64 = 10_000_000;
+/// Lengths that a segment may have, m. Beyond these bounds nothing is wrong with the mathematics, but squares of
+/// the numbers leave the range of a double, and answers would be silently lost.
+pub const LENGTHS: (f64, f64) = (1e-4, 100.0);
+/// Radii that a pitch circle may have, m.
+pub const RADII: (f64, f64) = (1e-6, 100.0);
+/// Bending-plane angles go this far either way, rad: sines of larger ones mean nothing.
+pub const MAX_TURN: f64 = 1e6;
+/// Forces of load cells go this far, N.
+const MAX_FORCE: f64 = 1e6;
+/// Times go this far, s.
+const MAX_TIME: f64 = 1e9;
+/// The largest seed that TOML can hold.
+const MAX_SEED: u64 = i64::MAX as u64;
 
 /// Why a scenario is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -148,8 +163,9 @@ fn refusal(key: &str, value: String, allowed: impl Into<String>) -> ScenarioErro
     ScenarioError::Value { key: key.into(), value, allowed: allowed.into() }
 }
 
-fn positive(key: &str, value: f64, most: f64, unit: &str) -> Result<(), ScenarioError> {
-    demand(value > 0.0 && value <= most, key, value, &format!("a number above 0 and at most {most} {unit}"))
+fn between(key: &str, value: f64, least: f64, most: f64, unit: &str) -> Result<(), ScenarioError> {
+    let allowed = format!("a number from {} to {} {unit}", text::number(least), text::number(most));
+    demand(value >= least && value <= most, key, value, &allowed)
 }
 
 fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), ScenarioError> {
@@ -158,8 +174,8 @@ fn not_negative(key: &str, value: f64, unit: &str) -> Result<(), ScenarioError> 
 
 fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
     let robot = &scenario.robot;
-    positive("robot.length", robot.length, 100.0, "m")?;
-    positive("robot.pitch_radius", robot.pitch_radius, 100.0, "m")?;
+    between("robot.length", robot.length, LENGTHS.0, LENGTHS.1, "m")?;
+    between("robot.pitch_radius", robot.pitch_radius, RADII.0, RADII.1, "m")?;
     let mut below = 0.0;
     for (i, &disk) in robot.disks.iter().enumerate() {
         let allowed =
@@ -169,11 +185,11 @@ fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
     }
     for (name, tube) in [("primary", &robot.primary), ("secondary", &robot.secondary)] {
         let key = |field: &str| format!("robot.{name}.{field}");
-        positive(&key("outer_diameter"), tube.outer_diameter, 1.0, "m")?;
+        between(&key("outer_diameter"), tube.outer_diameter, 1e-6, 1.0, "m")?;
         let inside = tube.inner_diameter >= 0.0 && tube.inner_diameter < tube.outer_diameter;
         let allowed = format!("from 0 to below the outer diameter, {} m", tube.outer_diameter);
         demand(inside, &key("inner_diameter"), tube.inner_diameter, &allowed)?;
-        positive(&key("youngs_modulus"), tube.youngs_modulus, 1e13, "Pa")?;
+        between(&key("youngs_modulus"), tube.youngs_modulus, 1.0, 1e13, "Pa")?;
     }
     Ok(())
 }
@@ -196,7 +212,7 @@ fn check_motion(scenario: &Scenario) -> Result<(), ScenarioError> {
     let segment = scenario.robot.segment();
     check_bend(&segment, "motion.theta_start", motion.theta_start, bend_from_theta_l(motion.theta_start))?;
     check_bend(&segment, "motion.theta_end", motion.theta_end, bend_from_theta_l(motion.theta_end))?;
-    demand(motion.delta.is_finite(), "motion.delta", motion.delta, "a finite angle in rad")?;
+    between("motion.delta", motion.delta, -MAX_TURN, MAX_TURN, "rad")?;
     not_negative("motion.start", motion.start, "s")?;
     let later = motion.finish > motion.start && motion.finish.is_finite();
     demand(later, "motion.finish", motion.finish, &format!("a time after motion.start = {} s", motion.start))?;
@@ -205,17 +221,17 @@ fn check_motion(scenario: &Scenario) -> Result<(), ScenarioError> {
 
 fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
     let tracker = &scenario.tracker;
-    positive("tracker.rate", tracker.rate, 1e9, "Hz")?;
-    not_negative("tracker.position_noise", tracker.position_noise, "m")?;
-    not_negative("tracker.orientation_noise", tracker.orientation_noise, "rad")?;
-    not_negative("tracker.position_resolution", tracker.position_resolution, "m")?;
-    not_negative("tracker.orientation_resolution", tracker.orientation_resolution, "rad")?;
-    not_negative("tracker.latency", tracker.latency, "s")?;
+    between("tracker.rate", tracker.rate, 1e-3, 1e6, "Hz")?;
+    between("tracker.position_noise", tracker.position_noise, 0.0, 1.0, "m")?;
+    between("tracker.orientation_noise", tracker.orientation_noise, 0.0, PI, "rad")?;
+    between("tracker.position_resolution", tracker.position_resolution, 0.0, 1.0, "m")?;
+    between("tracker.orientation_resolution", tracker.orientation_resolution, 0.0, PI, "rad")?;
+    between("tracker.latency", tracker.latency, 0.0, MAX_TIME, "s")?;
     let cells = &scenario.load_cells;
     let epsilon = cells.epsilon_tau;
     demand((0.0..1.0).contains(&epsilon), "load_cells.epsilon_tau", epsilon, "from 0 to below 1")?;
-    not_negative("load_cells.noise", cells.noise, "N")?;
-    demand(cells.preload.is_finite(), "load_cells.preload", cells.preload, "a finite force in N")?;
+    between("load_cells.noise", cells.noise, 0.0, MAX_FORCE, "N")?;
+    between("load_cells.preload", cells.preload, -MAX_FORCE, MAX_FORCE, "N")?;
     let detection = &scenario.detection;
     for (key, threshold, unit) in [("detection.xi1", detection.xi1, "N·m"), ("detection.xi2", detection.xi2, "m")] {
         if let Threshold::On(value) = threshold {
@@ -234,7 +250,10 @@ fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {
         Place::Disk(disk) => {
             let count = robot.disks.len();
             if disk > count as u64 {
-                let allowed = format!("a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact");
+                let allowed = match count {
+                    0 => "0, no contact: the robot has no spacer disks (contact.arc_length needs none)".into(),
+                    _ => format!("a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact"),
+                };
                 return Err(refusal("contact.disk", disk.to_string(), allowed));
             }
         }
@@ -250,19 +269,27 @@ fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {
 }
 
 fn check_length(scenario: &Scenario) -> Result<usize, ScenarioError> {
-    let rate = scenario.loop_rate;
-    demand(rate > 0.0 && rate.is_finite(), "loop_rate", rate, "a finite rate above 0 Hz")?;
-    let steps = libm::floor(scenario.motion.end * rate + 1e-6);
+    let (rate, end) = (scenario.loop_rate, scenario.motion.end);
+    between("loop_rate", rate, 0.1, 1e6, "Hz")?;
+    let steps = libm::floor(end * rate + 1e-6);
     if steps + 1.0 > MAX_SAMPLES {
-        let value = format!("{} with loop_rate = {}", text::number(scenario.motion.end), text::number(rate));
-        let allowed = format!("a run of at most {MAX_SAMPLES:e} samples, motion.end · loop_rate");
-        return Err(refusal("motion.end", value, allowed));
+        let allowed = format!(
+            "a run of at most {MAX_SAMPLES:e} samples, at loop_rate = {} Hz so at most {} s",
+            text::number(rate),
+            text::number(MAX_SAMPLES / rate)
+        );
+        return Err(refusal("motion.end", text::number(end), allowed));
     }
     let samples = steps as usize + 1;
-    let length = scenario.filter.length;
-    if length < 1 || length > samples as u64 {
-        let allowed = format!("a whole number from 1 to the run's {samples} samples");
+    let (length, most) = (scenario.filter.length, MAX_FILTER.min(samples as u64));
+    if length < 1 || length > most {
+        let allowed =
+            format!("a whole number from 1 to {most}; the run has {samples} samples (motion.end · loop_rate)");
         return Err(refusal("filter.length", length.to_string(), allowed));
+    }
+    if scenario.seed > MAX_SEED {
+        let allowed = format!("a whole number from 0 to {MAX_SEED}");
+        return Err(refusal("seed", scenario.seed.to_string(), allowed));
     }
     Ok(samples)
 }
@@ -280,8 +307,14 @@ fn resolve_contact(scenario: &Scenario) -> Option<PlannedContact> {
         Start::Time(time) => bend_from_theta_l(motion::command(&scenario.motion, time).0),
         Start::Bend(bend) => bend,
     };
-    // A beam that meets the straight segment stands on the side it is about to bend to.
-    let toward = if bend.abs() > STRAIGHT { bend } else { scenario.motion.theta_start - scenario.motion.theta_end };
+    let motion = scenario.motion.theta_start - scenario.motion.theta_end;
+    let toward = match scenario.contact.start {
+        // At that time the contact starts: the beam stands where the motion goes, be it toward straight.
+        Start::Time(_) => motion,
+        // Beyond that bend the contact holds, whichever way the motion goes through it.
+        Start::Bend(bend) if bend.abs() > STRAIGHT => bend,
+        Start::Bend(_) => motion,
+    };
     let side = if toward < 0.0 { -1.0 } else { 1.0 };
     Some(PlannedContact { arc_length, bend, side })
 }

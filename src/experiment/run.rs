@@ -62,6 +62,12 @@ pub const CHANNELS: &[Channel] = channels! {
     "filtered_x", "m", x => x.motion.position.x;
     "filtered_y", "m", x => x.motion.position.y;
     "filtered_z", "m", x => x.motion.position.z;
+    "filtered_vx", "m/s", x => x.motion.twist.linear.x;
+    "filtered_vy", "m/s", x => x.motion.twist.linear.y;
+    "filtered_vz", "m/s", x => x.motion.twist.linear.z;
+    "sensor_omega_x", "rad/s", x => x.motion.twist.angular.x;
+    "sensor_omega_y", "rad/s", x => x.motion.twist.angular.y;
+    "sensor_omega_z", "rad/s", x => x.motion.twist.angular.z;
     "model_centrode_x", "m", x => x.judgement.model_centrode.x;
     "model_centrode_y", "m", x => x.judgement.model_centrode.y;
     "model_centrode_z", "m", x => x.judgement.model_centrode.z;
@@ -78,7 +84,7 @@ pub const CHANNELS: &[Channel] = channels! {
     "bound_independent", "N·m", x => x.judgement.independent_bound;
 };
 
-/// The experiment as a stream: memory does not grow with its length.
+/// The experiment as a stream: what it keeps is one filter length of readings, and the crossings.
 #[derive(Debug, Clone)]
 pub struct Simulation<'a> {
     plan: &'a Plan,

@@ -125,7 +125,11 @@ impl Scenario {
 /// A number as a message shows it.
 #[must_use]
 pub fn number(value: f64) -> String {
-    if value.is_nan() { "nan".into() } else { format!("{value}") }
+    match value.abs() {
+        size if size.is_nan() => "nan".into(),
+        size if size != 0.0 && size.is_finite() && !(1e-6..1e15).contains(&size) => format!("{value:e}"),
+        _ => value.to_string(),
+    }
 }
 
 /// The keys that exist in a group ("" for the top).
@@ -166,19 +170,24 @@ fn type_error(table: &Table, error: &serde_path_to_error::Error<toml::de::Error>
     let mut value = None;
     let mut inner = Some(table);
     for name in path.split('.') {
-        let name = name.split('[').next().unwrap_or(name);
+        let (name, index) = name.split_once('[').map_or((name, None), |(name, index)| (name, Some(index)));
         value = inner.and_then(|table| table.get(name));
+        if let Some(index) = index.and_then(|index| index.trim_end_matches(']').parse::<usize>().ok()) {
+            value = value.and_then(|list| list.get(index));
+        }
         inner = value.and_then(Value::as_table);
     }
     let value = value.map_or_else(String::new, ToString::to_string).replace('\n', " ");
     let allowed = match (path.as_str(), inner) {
-        ("seed" | "contact.disk", _) => "a whole number, 0 or more",
+        ("seed", _) => "a whole number from 0 to 9223372036854775807",
+        ("contact.disk", _) => "a whole number, 0 or more",
         ("filter.length", _) => "a whole number, 1 or more",
         ("detection.xi1" | "detection.xi2", _) => "a number, 0 or more, or \"off\"",
         ("tracker.mounting", _) => "\"bending-axis\" or \"aligned\"",
         ("filter.averaging", _) => "\"readings\" or \"rotations\"",
         ("robot.disks", _) => "a list of arc lengths in m",
         ("contact", Some(_)) => "either disk or arc_length, and either time or bend, not both",
+        ("contact", None) => "a table with disk or arc_length, and time or bend",
         _ if matches!(known_keys(&path), Some(keys) if !keys.is_empty()) => "a table of keys",
         _ => "a number",
     };
@@ -248,7 +257,7 @@ mod tests {
             ("[robot]\nlenght = 1", &["robot.lenght", "length"]),
             ("[robot.primary]\nx = 1", &["robot.primary.x", "outer_diameter"]),
             ("robot = 3", &["robot", "3", "table"]),
-            ("[robot]\nlength = -0.03", &["robot.length", "-0.03", "above 0"]),
+            ("[robot]\nlength = -0.03", &["robot.length", "-0.03", "0.0001 to 100"]),
             ("[robot]\nlength = nan", &["robot.length", "nan"]),
             ("[robot]\nlength = \"long\"", &["robot.length", "long", "a number"]),
             ("[robot]\nlength = 0.02", &["robot.disks[2]", "0.0225", "0.02"]),
@@ -272,6 +281,12 @@ mod tests {
             ("[motion]\nend = 1e9", &["motion.end", "1000000000", "1e8"]),
             ("[motion]\nfinish = 2", &["motion.finish", "2", "after"]),
             ("seed = -1", &["seed", "-1", "whole"]),
+            ("loop_rate = 1e308", &["loop_rate", "1e308", "1000000 Hz"]),
+            ("contact = 3", &["contact", "3", "arc_length"]),
+            ("[robot]\ndisks = []", &["contact.disk", "2", "no spacer disks"]),
+            ("[robot]\ndisks = [0.01, true]", &["robot.disks[1]", "= true", "number"]),
+            ("[load_cells]\npreload = 1e300", &["load_cells.preload", "1e300"]),
+            ("[tracker]\nposition_noise = 1e308", &["tracker.position_noise", "1 m"]),
             ("seed = [", &["line 1"]),
             ("a = 1\n[b", &["line 2"]),
         ] {

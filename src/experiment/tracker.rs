@@ -88,9 +88,10 @@ impl SimulatedTracker {
     }
 }
 
-/// The multiple of `step` nearest to `value`; `value` itself for a step of 0.
+/// The multiple of `step` nearest to `value`; `value` itself for a step of 0 or too small to count.
 fn rounded(value: f64, step: f64) -> f64 {
-    if step > 0.0 { step * rint(value / step) } else { value }
+    let steps = rint(value / step);
+    if step > 0.0 && steps.is_finite() { step * steps } else { value }
 }
 
 /// `angle` plus the whole turns that bring it nearest to `before`.

@@ -180,6 +180,32 @@ fn moving_back_opens_the_contact() {
 }
 
 #[test]
+fn a_contact_timed_in_a_straightening_motion_starts_then() {
+    for (start, end) in [(0.0, FRAC_PI_2), (3.0, 0.2), (0.2, 3.0)] {
+        let mut scenario = contact(2, 5.8);
+        (scenario.motion.theta_start, scenario.motion.theta_end) = (start, end);
+        let time = run(&scenario).contact_time.expect("contact");
+        assert!((time - 5.801).abs() < 1e-9, "{start} to {end}: {time}");
+    }
+}
+
+#[test]
+fn a_robot_at_rest_has_no_speed_and_no_centrode() {
+    let mut scenario = contact(2, 5.8);
+    // Nothing hides what a rounding error would make of the rest.
+    (scenario.detection.armed_from, scenario.detection.min_speed) = (0.0, 0.0);
+    for averaging in [Averaging::Readings, Averaging::Rotations] {
+        scenario.filter.averaging = averaging;
+        scenario.motion.delta = 0.3;
+        let run = run(&scenario);
+        for sample in run.samples.iter().filter(|sample| sample.time <= 3.0) {
+            assert!(sample.judgement.speed == 0.0 && sample.judgement.deviation.is_nan(), "at {}", sample.time);
+        }
+        assert!(fcd_times(&run).iter().all(|&time| time > 5.8), "{averaging:?}: {:?}", fcd_times(&run));
+    }
+}
+
+#[test]
 fn bending_the_other_way_meets_a_beam_on_the_other_side() {
     let mirror = |theta_end| {
         let mut scenario = contact(2, 5.80);
@@ -212,6 +238,13 @@ fn the_tracker_holds_rounds_and_ages_its_readings() {
             assert!((steps - steps.round()).abs() < 1e-9);
         }
     }
+}
+
+#[test]
+fn a_resolution_too_fine_to_count_rounds_nothing() {
+    let mut scenario = contact(2, 5.8);
+    scenario.tracker.position_resolution = 1e-320;
+    assert_eq!(run(&scenario).fingerprint(), run(&contact(2, 5.8)).fingerprint());
 }
 
 #[test]
