@@ -1,7 +1,7 @@
 // The page's parameters: one table. A value that is not allowed is named to the person, never ignored.
 
 const PARAMETERS = {
-  renderer: { fallback: "auto", allowed: ["webgpu", "webgl"], means: "what to draw with" },
+  renderer: { fallback: "auto", allowed: ["auto", "webgpu", "webgl"], means: "what to draw with" },
   test: { fallback: false, flag: true, means: "opened by a test" },
 };
 // Added to links by mail programs and social sites; none of the person's doing.
@@ -17,7 +17,7 @@ export function readQuery(search) {
     settings[name] = values.length > 0 ? read(name, parameter, values, notices) : parameter.fallback;
   }
   for (const name of new Set(query.keys())) {
-    if (name in PARAMETERS || FOREIGN.test(name)) continue;
+    if (Object.hasOwn(PARAMETERS, name) || FOREIGN.test(name)) continue;
     const known = Object.keys(PARAMETERS).filter((key) => !PARAMETERS[key].flag);
     notices.push(`There is no parameter “${clip(name)}”. Known: ${known.join(", ")}. It was left out.`);
   }

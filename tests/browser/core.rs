@@ -48,37 +48,57 @@ fn controls_give_what_the_headless_command_gives() {
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 
-#[test]
-fn dragging_the_contact_slider_moves_the_detection() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+#[track_caller]
+fn dragging_the_contact_slider_moves_the_detection(renderer: Renderer) {
+    let mut page = Page::open(renderer, "?test", Options::default());
     for (to, disk) in [(0.98, 3), (0.02, 0), (0.667, 2)] {
         page.drag("Slider", "Contact disk", 0.4, to);
         let wanted = headless(&[&format!("contact.disk={disk}")]);
         page.wait(&format!("disk {disk}"), |page| (page.number("detectionTime") == wanted).then_some(()));
     }
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn dragging_the_contact_slider_moves_the_detection_on_webgl() {
+    dragging_the_contact_slider_moves_the_detection(Renderer::WebGl);
+}
+
+#[test]
+fn dragging_the_contact_slider_moves_the_detection_on_webgpu() {
+    dragging_the_contact_slider_moves_the_detection(Renderer::WebGpu);
+}
+
+/// Where the 3D view is in a picture of the window.
+fn view(page: &mut Page) -> Area {
+    let [x, y, w, h] = page.widget("Canvas", "3D view").bounds.expect("bounds");
+    let window = page.picture();
+    let (width, height) = (window.width as f64, window.height as f64);
+    Area(x / width, y / height, (x + w) / width, (y + h) / height)
 }
 
 #[track_caller]
 fn the_view_moves_with_playback(renderer: Renderer) {
-    let mut page = Page::open(renderer, "?test", Options { still: true, ..Options::default() });
-    let bounds = page.widget("Canvas", "3D view").bounds.expect("bounds");
-    let window = page.picture();
-    let [width, height] = [window.width as f64, window.height as f64];
-    let [x, y, w, h] = bounds;
-    let view = Area(x / width, y / height, (x + w) / width, (y + h) / height);
-    // Before the motion and at its end: the whole robot stands elsewhere.
+    let mut page = Page::open(renderer, "?test", Options::default());
+    let view = view(&mut page);
+    // While it plays, nothing but the robot and its signs moves in there.
+    page.wait("the motion to begin", |page| page.number("time").filter(|&time| time < 4.5));
+    let before = page.picture();
+    assert!(before.colours(view) > 100, "a blank 3D view");
+    page.wait("the robot to be bent", |page| page.number("time").filter(|time| (6.0..8.0).contains(time)));
+    let moved = page.picture().changed(&before, view);
+    assert!(moved > 2000, "only {moved} pixels of the 3D view changed during playback");
+    // From the start to the end: the whole robot stands elsewhere.
     page.click("Button", "Pause");
     page.click("Button", "To start");
     page.wait("the start", |page| (page.number("time") == Some(0.0)).then_some(()));
     page.frames();
     let straight = page.picture();
-    assert!(straight.colours(view) > 100, "a blank 3D view");
     page.key("End");
     page.wait("the end", |page| page.number("time").filter(|&time| time > 9.0));
     page.frames();
-    let bent = page.picture();
-    let moved = bent.changed(&straight, view);
-    assert!(moved > 4000, "only {moved} pixels of the 3D view changed");
+    let moved = page.picture().changed(&straight, view);
+    assert!(moved > 4000, "only {moved} pixels of the 3D view differ between start and end");
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 
@@ -90,4 +110,26 @@ fn the_3d_view_moves_on_webgl() {
 #[test]
 fn the_3d_view_moves_on_webgpu() {
     the_view_moves_with_playback(Renderer::WebGpu);
+}
+
+/// A measurement, printed with `--nocapture`; that the page computes at all is what it asserts.
+#[test]
+fn a_run_in_wasm_takes_this_long() {
+    const RUNS: u32 = 40;
+    let toml = PRESETS[0].toml;
+    let scenario = PRESETS[0].scenario().expect("valid");
+    let start = std::time::Instant::now();
+    for _ in 0..RUNS {
+        assert!(simulate(std::hint::black_box(&scenario)).expect("valid").fingerprint() != 0);
+    }
+    let native = start.elapsed().as_secs_f64() * 1e3 / f64::from(RUNS);
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    let script = format!(
+        "(() => {{ const toml = {}; centrode.fingerprint(toml); const start = performance.now(); \
+         for (let i = 0; i < {RUNS}; i++) centrode.fingerprint(toml); return (performance.now() - start) / {RUNS}; }})()",
+        serde_json::json!(toml)
+    );
+    let wasm = page.eval(&script).as_f64().expect("a time");
+    assert!(wasm > 0.0);
+    println!("a run with its fingerprint: {wasm:.2} ms in wasm, {native:.2} ms in this build natively");
 }
