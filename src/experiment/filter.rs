@@ -44,19 +44,19 @@ impl<const D: usize> MovingAverage<D> {
             self.ring.push(*next);
         } else {
             let oldest = std::mem::replace(&mut self.ring[self.oldest], *next);
-            self.oldest = (self.oldest + 1) % self.length;
+            self.oldest = if self.oldest + 1 == self.length { 0 } else { self.oldest + 1 };
             for (i, x) in oldest.iter().enumerate() {
                 self.add(i, -x);
             }
         }
-        let count = self.ring.len() as f64;
+        let share = 1.0 / self.ring.len() as f64;
         let mut change = [0.0; D];
         for (i, x) in next.iter().enumerate() {
             self.add(i, *x);
-            change[i] = (x - gone[i]) / count;
+            change[i] = (x - gone[i]) * share;
             // What does not change keeps its bits: a robot at rest has no speed, not one of a rounding error.
-            if change[i] != 0.0 || count == 1.0 {
-                self.mean[i] = (self.sum[i] + self.error[i]) / count;
+            if change[i] != 0.0 || share == 1.0 {
+                self.mean[i] = (self.sum[i] + self.error[i]) * share;
             }
         }
         (self.mean, change)

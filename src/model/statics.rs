@@ -175,10 +175,15 @@ impl Segment {
     /// Never below [`Segment::common_error_bound`]; unlike it, it grows with the preload.
     #[must_use]
     pub fn independent_error_bound(&self, configuration: &Configuration, tau_lc: &Vec3, epsilon_tau: f64) -> f64 {
+        let (theta, delta_per_bend) = joint_jacobian_per_bend(self.pitch_radius, configuration);
+        let (x, y) = (theta.component_mul(tau_lc), delta_per_bend.component_mul(tau_lc));
         // A sign choice and its opposite have one norm: four of the eight suffice.
-        let signs = [[1.0, 1.0, 1.0], [1.0, 1.0, -1.0], [1.0, -1.0, 1.0], [1.0, -1.0, -1.0]];
-        let largest = signs
-            .map(|sign| self.generalised_force(configuration, &tau_lc.component_mul(&Vec3::from(sign))).norm_squared())
+        let largest = [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)]
+            .map(|(b, c)| {
+                let theta_l = x.x + b * x.y + c * x.z;
+                let delta = (y.x + b * y.y + c * y.z) * configuration.bend();
+                theta_l * theta_l + delta * delta
+            })
             .into_iter()
             .fold(0.0, f64::max);
         epsilon_tau * sqrt(largest)
