@@ -63,6 +63,12 @@ impl Quantity {
         self.units()[0].0
     }
 
+    /// The SI unit, empty for none.
+    #[must_use]
+    pub fn si_unit(self) -> &'static str {
+        self.units().iter().find(|unit| unit.1 == 1.0 && unit.2 == 1.0).map_or("", |unit| unit.0)
+    }
+
     /// An SI value in the unit shown.
     #[must_use]
     pub fn shown(self, si: f64) -> f64 {

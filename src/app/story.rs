@@ -219,7 +219,10 @@ mod tests {
     #[test]
     fn a_detection_is_told_with_its_delay_and_place() {
         let said = sentence(&run("paper", |_| {}));
-        assert!(said.starts_with("Contact on disk 2 at 5.801 s was noticed at 6.280 s, 0.48 s later; the estimate is "), "{said}");
+        assert!(
+            said.starts_with("Contact on disk 2 at 5.801 s was noticed at 6.280 s, 0.48 s later; the estimate is "),
+            "{said}"
+        );
         assert!(said.ends_with("the truth 15.0 mm."), "{said}");
     }
 
@@ -232,7 +235,11 @@ mod tests {
                 "Nothing touches the robot, and nothing was noticed.",
             ),
             ("static-resolution", |_| {}, "False alarm at "),
-            ("paper", |s| s.detection.xi2 = Threshold::OFF, "Contact on disk 2 at 5.801 s; ξ2 is off, so the centrode raised no alarm."),
+            (
+                "paper",
+                |s| s.detection.xi2 = Threshold::OFF,
+                "Contact on disk 2 at 5.801 s; ξ2 is off, so the centrode raised no alarm.",
+            ),
             ("paper", |s| s.detection.xi2 = Threshold::On(1.0), "was not noticed; ξ2 is 1000.0 mm."),
             ("paper", |s| s.detection.xi1 = Threshold::OFF, "ξ1 is off, so joint forces raised no alarm."),
             ("paper", |_| {}, "Joint forces alarmed 0."),

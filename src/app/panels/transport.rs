@@ -90,7 +90,7 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
     let (response, moved) = slider::slider(
         ui,
         track,
-        &Slider { label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true },
+        &Slider { key: "speed", label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true },
     );
     response.on_hover_text("Speed of playback");
     if let Some(speed) = moved {
@@ -104,7 +104,7 @@ fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Comman
     let scenario = run.plan.scenario();
     let rail = Rail { range: (0.0, scenario.motion.end), scale: Scale::Linear(0.001) };
     let spoken = format!("{} s", number(state.time, 3));
-    let shape = Slider { label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
+    let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
     let (response, asked) = slider::sense(ui, rect, &shape);
     if let Some(time) = asked {
         out.push(Command::Seek(time));
