@@ -246,7 +246,7 @@ mod tests {
             ("free", |s| s.detection.xi2 = Threshold::OFF, "Nothing touches the robot; ξ2 is off"),
             (
                 "paper",
-                |s| s.contact.place = Place::ArcLength(0.0295),
+                |s| s.contact.place = Place::ArcLength(0.03),
                 "Joint forces are not defined while the beam holds so near the tip.",
             ),
             (
@@ -256,7 +256,7 @@ mod tests {
                     s.detection.xi2 = Threshold::On(0.003);
                     s.tracker.position_noise = 1e-3;
                     s.filter.length = 50;
-                    s.detection.min_speed = 0.5;
+                    s.detection.min_speed = 0.1;
                 },
                 " s as the motion ended, where noise rules: nothing touches",
             ),
