@@ -2,7 +2,6 @@
 
 use super::control::{Choice, Control};
 use super::state::Tab;
-use crate::experiment::Scenario;
 use crate::experiment::preset::Preset;
 use crate::experiment::scenario::Threshold;
 
@@ -21,8 +20,6 @@ pub enum Command {
     SetSpeed(f64),
     /// Start again at the end, or stop there.
     ToggleLoop,
-    /// Replace the whole scenario.
-    Load(Box<Scenario>),
     /// Choose a preset and load its scenario.
     Choose(&'static Preset),
     /// Set ξ1, N·m.

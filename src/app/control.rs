@@ -70,6 +70,8 @@ pub struct Control {
 /// For a control whose setting is not always a number.
 #[derive(Clone, Copy)]
 pub struct Words {
+    /// Name, where it is not the control's.
+    pub label: fn(&Scenario) -> Option<&'static str>,
     /// Text and unit, where they are not the number's.
     pub show: fn(&Scenario) -> Option<(String, &'static str)>,
     /// Reads a text; none leaves it to the quantity.
@@ -87,6 +89,12 @@ impl Control {
     #[must_use]
     pub fn value(&self, scenario: &Scenario) -> Option<f64> {
         (self.get)(scenario).map(|si| self.quantity.shown(si))
+    }
+
+    /// Name, for what the setting holds.
+    #[must_use]
+    pub fn label(&self, scenario: &Scenario) -> &'static str {
+        self.words.and_then(|words| (words.label)(scenario)).unwrap_or(self.label)
     }
 
     /// Text and unit of the field.

@@ -17,6 +17,7 @@ pub mod panels;
 pub mod plane;
 pub mod plots;
 pub mod quantity;
+mod refusal;
 mod span;
 pub mod state;
 pub mod story;
@@ -236,7 +237,6 @@ impl App {
                 }
                 Command::SetSpeed(speed) => self.state.speed = speed.clamp(0.1, 4.0),
                 Command::ToggleLoop => self.state.looping = !self.state.looping,
-                Command::Load(scenario) => self.load(*scenario),
                 Command::Choose(preset) => {
                     self.state.preset = preset.name.into();
                     self.base = preset.scenario().unwrap_or_default();
@@ -300,7 +300,9 @@ impl App {
     /// Changes the scenario if what comes out can be run; else says why not, and changes nothing.
     fn change(&mut self, key: &'static str, change: impl FnOnce(&mut Scenario) -> Result<(), String>) {
         let mut scenario = self.state.scenario.clone();
-        match change(&mut scenario).and_then(|()| memo::check(&scenario).map_err(|refusal| refusal.to_string())) {
+        let checked = change(&mut scenario)
+            .and_then(|()| memo::check(&scenario).map_err(|refused| refusal::told(table::control(key), &refused)));
+        match checked {
             Ok(()) => {
                 self.remember(&scenario);
                 self.notes.remove(key);

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::notation;
+
 /// What a number is, and so how it is shown and typed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -13,7 +15,7 @@ pub enum Quantity {
     Time,
     /// A ratio, shown in %.
     Ratio,
-    /// A moment, shown in N·m.
+    /// A moment, shown in mN·m.
     Moment,
     /// A force, shown in N.
     Force,
@@ -44,8 +46,8 @@ impl Quantity {
             Self::Time => &[Unit("s", 1.0, 1.0), Unit("ms", 1.0, 1e3)],
             Self::Ratio => &[Unit("%", 1.0, 1e2)],
             Self::Moment => &[
-                Unit("N·m", 1.0, 1.0), Unit("Nm", 1.0, 1.0), Unit("N m", 1.0, 1.0),
                 Unit("mN·m", 1.0, 1e3), Unit("mNm", 1.0, 1e3), Unit("N·mm", 1.0, 1e3), Unit("Nmm", 1.0, 1e3),
+                Unit("N·m", 1.0, 1.0), Unit("Nm", 1.0, 1.0), Unit("N m", 1.0, 1.0),
             ],
             Self::Force => &[Unit("N", 1.0, 1.0), Unit("mN", 1.0, 1e3)],
             Self::Frequency => &[Unit("Hz", 1.0, 1.0), Unit("kHz", 1e3, 1.0)],
@@ -59,6 +61,12 @@ impl Quantity {
     #[must_use]
     pub fn unit(self) -> &'static str {
         self.units()[0].0
+    }
+
+    /// The SI unit, empty for none.
+    #[must_use]
+    pub fn si_unit(self) -> &'static str {
+        self.units().iter().find(|unit| unit.1 == 1.0 && unit.2 == 1.0).map_or("", |unit| unit.0)
     }
 
     /// An SI value in the unit shown.
@@ -102,26 +110,21 @@ impl Quantity {
     }
 }
 
-/// A number with `decimals` digits after the point and more only where the value has them.
+/// A number with `decimals` digits after the point, and one more where the value has it.
 #[must_use]
 pub fn number(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return "–".into();
+    let mut text = notation::number(value, decimals + 1);
+    if value != 0.0 && !text.contains(|c: char| ('1'..='9').contains(&c)) && value.is_finite() {
+        // What is not zero does not look like zero.
+        return format!("{value:.0e}").replace('-', "−");
     }
-    let mut text = format!("{:.*}", decimals.max(6), value);
-    while text.ends_with('0') && text.len() - text.find('.').unwrap_or(0) > decimals + 1 {
+    if text.ends_with('0') {
         text.pop();
     }
     if text.ends_with('.') {
         text.pop();
     }
-    text.replace('-', "−")
-}
-
-/// A number with exactly `decimals` digits after the point; “–” where it is not defined.
-#[must_use]
-pub fn fixed(value: f64, decimals: usize) -> String {
-    if value.is_finite() { format!("{value:.decimals$}").replace('-', "−") } else { "–".into() }
+    text
 }
 
 /// Rounds to this many significant digits.
@@ -181,7 +184,8 @@ mod tests {
             (Quantity::Time, "5,8", 5.8),
             (Quantity::Time, "5800 ms", 5.8),
             (Quantity::Ratio, "10 %", 10.0),
-            (Quantity::Moment, "30 mN·m", 0.03),
+            (Quantity::Moment, "30 mN·m", 30.0),
+            (Quantity::Moment, "0.03 N·m", 30.0),
             (Quantity::Count, "1e3", 1000.0),
         ] {
             assert_eq!(quantity.parse(text), Ok(shown), "{text}");
@@ -202,11 +206,16 @@ mod tests {
     #[test]
     fn numbers_keep_the_digits_they_have() {
         assert_eq!(number(5.8, 2), "5.80");
-        assert_eq!(number(5.8125, 2), "5.8125");
+        assert_eq!(number(5.8125, 2), "5.812");
+        assert_eq!(number(2.864_789, 2), "2.865");
+        assert_eq!(number(2.5, 0), "2.5");
+        assert_eq!(number(-0.0, 1), "0.0");
+        assert_eq!(number(-1e-5, 1), "−1e−5");
+        assert_eq!(Quantity::Length.parse("1e−5"), Ok(1e-5));
         assert_eq!(number(500.0, 0), "500");
         assert_eq!(number(-0.05, 2), "−0.05");
         assert_eq!(number(0.01, 3), "0.010");
-        assert_eq!(fixed(f64::NAN, 1), "–");
+        assert_eq!(number(f64::NAN, 1), "–");
         assert_eq!(round_to(123_456.0, 2), 120_000.0);
     }
 }

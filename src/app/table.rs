@@ -63,7 +63,7 @@ const CONTACT: &[Control] = &[
             Field(|s| Some(span::disk(s)), words::set_disk, |from, to| to.contact.place = from.contact.place),
             "Where the beam meets the backbone: at a disk, or type an arc length such as 18 mm.",
         ),
-        Words { show: words::show_place, enter: words::enter_place },
+        Words { label: |_| None, show: words::show_place, enter: words::enter_place },
     ),
     with_words(
         row(
@@ -80,7 +80,7 @@ const CONTACT: &[Control] = &[
             ),
             "When the backbone reaches the beam. A bend can be typed instead, such as 56°.",
         ),
-        Words { show: words::show_start, enter: words::enter_start },
+        Words { label: words::label_start, show: words::show_start, enter: words::enter_start },
     ),
     row(
         "motion.delta",
@@ -123,7 +123,7 @@ const SENSORS: &[Control] = &[
         Log(0.001),
         |_| (0.0, 1.0),
         field!(tracker.orientation_noise),
-        "Standard deviation of the tracker's white noise on each angle.",
+        "Standard deviation of the white noise that turns the marker about each axis of the base.",
     ),
     row(
         "seed",
@@ -143,7 +143,7 @@ const FILTER: &[Control] = &[row(
     Count,
     0,
     LogWhole,
-    |_| (1.0, 2000.0),
+    |s| (1.0, (s.motion.end * s.loop_rate).floor().clamp(2.0, 2000.0)),
     field!(whole filter.length),
     "Readings in the moving average: longer is calmer and later. 1 does not filter.",
 )];
@@ -167,9 +167,9 @@ const THRESHOLDS: &[Control] = &[
             "detection.xi1",
             "ξ1 (joint force)",
             Moment,
-            3,
-            Linear(0.001),
-            |_| (0.0, 0.1),
+            1,
+            Linear(1.0),
+            |_| (0.0, 100.0),
             field!(threshold detection.xi1),
             "Alarm when the joint force deviation Θ exceeds this.",
         ),
@@ -208,15 +208,38 @@ const MOTION: &[Control] = &[
         field!(motion.theta_end),
         "Tangent angle of the tip after the motion.",
     ),
-    row("motion.start", "Motion starts", Time, 2, Linear(0.05), RUN, field!(motion.start), "The robot rests before."),
-    row("motion.finish", "Motion is done", Time, 2, Linear(0.05), RUN, field!(motion.finish), "The robot rests after."),
+    row(
+        "motion.start",
+        "Motion starts",
+        Time,
+        2,
+        Linear(0.05),
+        // A step at least remains for the motion.
+        |s| (0.0, (s.motion.finish - 0.05).max(s.motion.finish / 2.0)),
+        field!(motion.start),
+        "The robot rests before.",
+    ),
+    row(
+        "motion.finish",
+        "Motion ends",
+        Time,
+        2,
+        Linear(0.05),
+        |s| (s.motion.start + 0.05, s.motion.end.max(s.motion.start + 0.1)),
+        field!(motion.finish),
+        "The robot rests after.",
+    ),
     row(
         "motion.end",
         "Run ends",
         Time,
         2,
         Linear(0.1),
-        |_| (1.0, 20.0),
+        |s| {
+            // The filter is not longer than the run.
+            let low = (s.filter.length as f64 / s.loop_rate).max(1.0);
+            (low, (low + 1.0).max(20.0))
+        },
         field!(motion.end),
         "How long the experiment lasts.",
     ),
@@ -229,7 +252,10 @@ const ROBOT: &[Control] = &[
         Length,
         1,
         Linear(0.5),
-        |_| (10.0, 100.0),
+        |s| {
+            let low = s.robot.disks.last().map_or(10.0, |&disk| Length.shown(disk));
+            (low, (2.0 * low).max(100.0))
+        },
         field!(robot.length),
         "Primary backbone, base disk to end disk.",
     ),
@@ -245,23 +271,23 @@ const ROBOT: &[Control] = &[
     ),
     row(
         "robot.primary.youngs_modulus",
-        "Stiffness of the primary",
+        "Young's modulus, primary",
         Modulus,
         1,
         Linear(0.5),
         |_| (1.0, 120.0),
         field!(robot.primary.youngs_modulus),
-        "Young's modulus of the central tube.",
+        "Modulus of elasticity of the central tube.",
     ),
     row(
         "robot.secondary.youngs_modulus",
-        "Stiffness of the others",
+        "Young's modulus, secondary",
         Modulus,
         1,
         Linear(0.5),
         |_| (1.0, 120.0),
         field!(robot.secondary.youngs_modulus),
-        "Young's modulus of each of the three outer tubes.",
+        "Modulus of elasticity of each of the three outer tubes.",
     ),
 ];
 
@@ -370,13 +396,16 @@ pub static GROUPS: &[Group] = &[
     Group { name: "Tracker and cells", folded: true, controls: DEVICES, choices: DEVICE_CHOICES },
 ];
 
+/// The control of a key.
+#[must_use]
+pub fn control(key: &str) -> Option<&'static Control> {
+    GROUPS.iter().flat_map(|group| group.controls).find(|control| control.key == key)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn control(key: &str) -> &'static Control {
-        GROUPS.iter().flat_map(|group| group.controls).find(|control| control.key == key).expect(key)
-    }
+    use crate::app::memo::check;
 
     #[test]
     fn every_row_sets_what_it_gets_and_copies_it() {
@@ -396,6 +425,20 @@ mod tests {
     }
 
     #[test]
+    fn both_ends_of_every_slider_can_be_run() {
+        let preset = Scenario::default();
+        for control in GROUPS.iter().flat_map(|group| group.controls) {
+            let (low, high) = (control.range)(&preset);
+            assert!(low < high, "{}", control.key);
+            for value in [low, high] {
+                let mut scenario = preset.clone();
+                control.slide(&mut scenario, value);
+                assert_eq!(check(&scenario), Ok(()), "{} = {value}", control.key);
+            }
+        }
+    }
+
+    #[test]
     fn the_key_is_a_key_of_the_scenario() {
         let toml = Scenario::default().to_toml();
         for key in GROUPS
@@ -409,7 +452,7 @@ mod tests {
 
     #[test]
     fn a_threshold_can_be_typed_off() {
-        let xi2 = control("detection.xi2");
+        let xi2 = control("detection.xi2").expect("a row");
         let mut scenario = Scenario::default();
         xi2.enter(&mut scenario, "off").expect("off");
         assert_eq!((scenario.detection.xi2, xi2.value(&scenario)), (Threshold::OFF, None));

@@ -41,6 +41,11 @@ pub fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), Str
     Some(Ok(()))
 }
 
+/// Name of the contact's start, when that is a bend.
+pub fn label_start(scenario: &Scenario) -> Option<&'static str> {
+    matches!(scenario.contact.start, Start::Bend(_)).then_some("Contact bend")
+}
+
 /// When the contact starts, when that is a bend.
 pub fn show_start(scenario: &Scenario) -> Option<(String, &'static str)> {
     match scenario.contact.start {
@@ -62,17 +67,12 @@ pub fn enter_start(scenario: &mut Scenario, text: &str) -> Option<Result<(), Str
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::control::Control;
     use crate::app::memo::check;
-    use crate::app::table::GROUPS;
-
-    fn control(key: &str) -> &'static Control {
-        GROUPS.iter().flat_map(|group| group.controls).find(|control| control.key == key).expect(key)
-    }
+    use crate::app::table::control;
 
     #[test]
     fn places_can_be_typed() {
-        let disk = control("contact.disk");
+        let disk = control("contact.disk").expect("a row");
         let mut scenario = Scenario::default();
         for (text, place) in [
             ("3", Place::Disk(3)),
@@ -97,7 +97,7 @@ mod tests {
 
     #[test]
     fn starts_can_be_typed() {
-        let start = control("contact.time");
+        let start = control("contact.time").expect("a row");
         let mut scenario = Scenario::default();
         for (text, shown) in
             [("5.5", "5.50 s"), ("5600 ms", "5.60 s"), ("45°", "45.0 °"), ("30", "30.0 °"), ("5.8 s", "5.80 s")]
@@ -105,6 +105,7 @@ mod tests {
             start.enter(&mut scenario, text).expect(text);
             let (number, unit) = start.text(&scenario);
             assert_eq!(format!("{number} {unit}"), shown);
+            assert_eq!(start.label(&scenario), if unit == "°" { "Contact bend" } else { "Contact time" });
         }
         start.enter(&mut scenario, "soon").expect_err("words");
     }

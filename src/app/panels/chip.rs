@@ -30,7 +30,7 @@ impl Chip {
         let color = match phase {
             Phase::Free => theme.dim,
             Phase::Contact => theme.obstacle,
-            Phase::Detected => theme.detection,
+            Phase::Detected | Phase::FalseAlarm => theme.detection,
         };
         let font = fonts::strong(13.5);
         let rect = Rect::from_min_size(at, vec2(text::width(ui, phase.words(), font.clone()) + 42.0, 30.0));
@@ -49,8 +49,13 @@ impl Chip {
         }
         let filled = phase == Phase::Detected;
         let ground = if filled { color } else { theme.panel.gamma_multiply(0.92) };
-        let edge = if filled { color } else { theme.faint };
-        ui.painter().rect(rect, 15.0, ground, Stroke::new(1.0, edge), egui::StrokeKind::Inside);
+        // A false alarm is an outline: it has a detection's colour and none of its substance.
+        let edge = match phase {
+            Phase::Detected => Stroke::new(1.0, color),
+            Phase::FalseAlarm => Stroke::new(2.0, color),
+            Phase::Free | Phase::Contact => Stroke::new(1.0, theme.faint),
+        };
+        ui.painter().rect(rect, 15.0, ground, edge, egui::StrokeKind::Inside);
         let ink = if !filled {
             theme.ink
         } else if theme.dark {
@@ -59,14 +64,12 @@ impl Chip {
             theme.panel
         };
         let dot = rect.left_center() + vec2(16.0, 0.0);
+        let diamond = || [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|v| dot + v).to_vec();
         match phase {
             Phase::Free => ui.painter().circle_stroke(dot, 4.5, Stroke::new(2.0, color)),
             Phase::Contact => ui.painter().circle_filled(dot, 5.0, color),
-            Phase::Detected => {
-                let diamond =
-                    [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|v| dot + v).to_vec();
-                ui.painter().add(egui::Shape::convex_polygon(diamond, ink, Stroke::NONE))
-            }
+            Phase::Detected => ui.painter().add(egui::Shape::convex_polygon(diamond(), ink, Stroke::NONE)),
+            Phase::FalseAlarm => ui.painter().add(egui::Shape::closed_line(diamond(), Stroke::new(1.8, color))),
         };
         text::paint(ui, rect.left_center() + vec2(28.0, 0.0), Align2::LEFT_CENTER, phase.words(), font, ink);
         let response = ui.interact(rect, Id::unique("state chip"), Sense::hover());

@@ -34,16 +34,16 @@ pub struct Context<'a> {
 }
 
 /// Label and reset button; returns whether it was reset.
-fn heading(ui: &mut Ui, rect: Rect, label: &str, tip: &str, differs: bool) -> bool {
+fn heading(ui: &mut Ui, rect: Rect, key: &str, label: &str, tip: &str, differs: bool) -> bool {
     let theme = Theme::of(ui);
     let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
     let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
-    ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", label)), Sense::hover()).on_hover_text(tip);
+    ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", key)), Sense::hover()).on_hover_text(tip);
     if !differs {
         return false;
     }
     let place = Rect::from_center_size(drawn.right_center() + vec2(15.0, 0.0), vec2(22.0, 22.0));
-    ui.push_id(label, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
+    ui.push_id(key, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
         .inner
         .clicked()
 }
@@ -55,21 +55,22 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     let width = ui.available_width();
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
-    if heading(ui, line, control.label, control.tip, control.differs(scenario, base)) {
+    let label = control.label(scenario);
+    if heading(ui, line, control.key, label, control.tip, control.differs(scenario, base)) {
         out.push(Command::Reset(control));
     }
 
     let (shown, unit) = control.text(scenario);
     let value = control.value(scenario);
     let place = Rect::from_min_max(line.right_top() - vec2(FIELD, 0.0), line.right_bottom());
-    let name = format!("{} value", control.label);
+    let name = format!("{label} value");
     let entry = Field { label: &name, key: control.key, shown: &shown, unit, refused: note.is_some() };
     if let Some(typed) = field(ui, place, &entry) {
         out.push(Command::Enter(control, typed));
     }
     if control.off.is_some() {
         let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
-        if toggle(ui, place, &format!("{} on", control.label), value.is_some()) {
+        if toggle(ui, place, &format!("{label} on"), value.is_some()) {
             out.push(Command::Switch(control, value.is_none()));
         }
     }
@@ -80,7 +81,8 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
         ui,
         track,
         &Slider {
-            label: control.label,
+            key: control.key,
+            label,
             spoken: &spoken,
             rail: Rail { range: (control.range)(scenario), scale: control.scale },
             value: value.or(*remembered).unwrap_or(0.0),
@@ -107,7 +109,7 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + 28.0), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
-    if heading(ui, line, choice.label, choice.tip, choice.differs(context.scenario, context.base)) {
+    if heading(ui, line, choice.key, choice.label, choice.tip, choice.differs(context.scenario, context.base)) {
         out.push(Command::ResetChoice(choice));
     }
     let place = Rect::from_min_size(line.left_bottom(), vec2(width, 28.0));

@@ -5,8 +5,10 @@ use egui::{Align2, Rect, Shape, Stroke, Ui, pos2, vec2};
 use crate::app::command::Command;
 use crate::app::control::Scale;
 use crate::app::fonts;
-use crate::app::quantity::{fixed, number};
+use crate::app::notation::number;
+use crate::app::quantity;
 use crate::app::state::State;
+use crate::app::story::Phase;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::rail::Rail;
@@ -46,7 +48,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
         out.push(Command::Step(1));
     }
     let theme = Theme::of(ui);
-    let clock = fixed(state.time, 3);
+    let clock = number(state.time, 3);
     let at = pos2(x + if narrow { 6.0 } else { 12.0 }, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
     let unit = text::paint(
@@ -81,14 +83,14 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
 
 fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let spoken = format!("{}×", number(state.speed, 1));
+    let spoken = format!("{}×", quantity::number(state.speed, 1));
     text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
     let track = Rect::from_min_max(right - vec2(width + 38.0, height / 2.0), right + vec2(-38.0, height / 2.0));
     let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
     let (response, moved) = slider::slider(
         ui,
         track,
-        &Slider { label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true },
+        &Slider { key: "speed", label: "Speed", spoken: &spoken, rail, value: state.speed, notch: Some(1.0), on: true },
     );
     response.on_hover_text("Speed of playback");
     if let Some(speed) = moved {
@@ -101,8 +103,8 @@ fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Comman
     let theme = Theme::of(ui);
     let scenario = run.plan.scenario();
     let rail = Rail { range: (0.0, scenario.motion.end), scale: Scale::Linear(0.001) };
-    let spoken = format!("{} s", fixed(state.time, 3));
-    let shape = Slider { label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
+    let spoken = format!("{} s", number(state.time, 3));
+    let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
     let (response, asked) = slider::sense(ui, rect, &shape);
     if let Some(time) = asked {
         out.push(Command::Seek(time));
@@ -143,12 +145,16 @@ fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Comman
 
 /// What the marks on the rail are.
 fn marks(run: &Run) -> String {
-    let mut said = format!("Armed from {} s", fixed(run.plan.scenario().detection.armed_from, 2));
+    let mut said = format!("Armed from {} s", number(run.plan.scenario().detection.armed_from, 2));
     if let Some(contact) = run.contact_time {
-        said += &format!(" · contact at {} s", fixed(contact, 3));
+        said += &format!(" · contact at {} s", number(contact, 3));
     }
     if let Some(detection) = run.detection {
-        said += &format!(" · detected at {} s", fixed(detection.time, 3));
+        let what = match Phase::at(run, detection.time) {
+            Phase::FalseAlarm => "false alarm",
+            _ => "detected",
+        };
+        said += &format!(" · {what} at {} s", number(detection.time, 3));
     }
     said
 }

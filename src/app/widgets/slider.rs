@@ -13,6 +13,8 @@ pub const HANDLE: f32 = 7.0;
 
 /// What a slider shows.
 pub struct Slider<'a> {
+    /// Identity.
+    pub key: &'a str,
     /// Name for assistive technology.
     pub label: &'a str,
     /// Value with its unit, for assistive technology.
@@ -42,7 +44,7 @@ pub fn at(rect: Rect, place: f64) -> f32 {
 
 /// Senses pointer, keys and assistive technology; returns the value asked for. Paints nothing.
 pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<f64>) {
-    let id = ui.make_persistent_id(("slider", slider.label));
+    let id = ui.make_persistent_id(("slider", slider.key));
     let response =
         ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     let mut asked = None;
