@@ -13,8 +13,6 @@ const POINTS: usize = 40;
 const DISK: f64 = 1.18;
 /// The beam's radius over the pitch radius.
 const BEAM: f64 = 0.55;
-/// The centrode's direction of motion: bending alone.
-const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
 
 /// The three loci over the run; a centrode that is not defined has no mark.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -163,7 +161,7 @@ impl<'a> Track<'a> {
         let contact = self.run.plan.contact().filter(|_| sample.in_contact)?;
         let configuration = self.plant.command(sample.time).0;
         let held = Constrained::new(self.run.plan.segment().length, contact.arc_length, contact.bend, configuration);
-        held.centrode(BENDING).map(|c| self.flat(&c))
+        held.centrode(Rate::BENDING).map(|c| self.flat(&c))
     }
 
     /// c_c at a time, while contact holds, mm.

@@ -24,8 +24,6 @@ const FADE: f64 = 2.5;
 const FAR: f64 = 1.6;
 /// The sensor's is also off when it is this many lengths away from the model's.
 const STRAY: f64 = 1.0;
-/// The motion is in θL alone; its direction is all that a centrode needs.
-const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
 
 /// One instant of a run, and how its signs look.
 pub struct Signs<'a> {
@@ -78,8 +76,9 @@ impl Signs<'_> {
         let (configuration, _) = self.plant.command(time);
         let held = self.plant.in_contact(&configuration);
         let length = self.run.plan.segment().length;
-        let centrode =
-            held.then(|| Constrained::new(length, contact.arc_length, contact.bend, configuration).centrode(BENDING))?;
+        let centrode = held.then(|| {
+            Constrained::new(length, contact.arc_length, contact.bend, configuration).centrode(Rate::BENDING)
+        })?;
         self.visible(&centrode?)
     }
 
