@@ -185,7 +185,7 @@ impl App {
             let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| panels::controls::controls(ui, &inputs, out));
         }
-        layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view, out));
+        layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view));
         layout::round(ui, layout.view);
         chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), host.prefers_reduced_motion);
         layout::card(ui, "transport", layout.transport, |ui| {

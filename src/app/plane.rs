@@ -10,8 +10,9 @@ use super::notation::{job, note, number};
 use super::plots::{Axis, Steps};
 use super::theme::Theme;
 use crate::experiment::Run;
+use crate::scene::view::track::armed;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
-use flat::{Flat, Mark, thinned};
+use flat::{Flat, Mark};
 use paint::{label, place, strip};
 use track::{Loci, Track};
 
@@ -40,7 +41,7 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     }
     let painter = ui.painter().clone();
     let track = Track::new(run);
-    let mut loci = track.loci();
+    let loci = track.loci(cursor);
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
     painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
     let entries = entries(run, &theme);
@@ -58,9 +59,6 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
         data.min.y += legend(&painter, &theme, at, area.width(), &entries) + 5.0;
     }
     let axes = Axes::fit(track.bounds(&loci), data);
-    for (marks, least) in [(&mut loci.model, 8.5), (&mut loci.constrained, 8.5), (&mut loci.sensor, 3.0)] {
-        *marks = thinned(marks, least / f64::from(axes.scale));
-    }
     let size = (axes.scale / USUAL).clamp(0.6, 1.0);
     let view = View { run, track, theme, cursor, axes, data, loci, size };
 
@@ -226,7 +224,6 @@ impl View<'_> {
             marks.iter().map(move |mark| (mark, form, color))
         }
         of(&self.loci.sensor, Form::Dot, theme.sensor)
-            .filter(|(mark, ..)| mark.time <= self.cursor)
             .chain(of(&self.loci.constrained, Form::Circle, theme.constrained))
             .chain(of(&self.loci.model, Form::Triangle, theme.model))
             .filter(|(mark, ..)| self.axes.holds(mark.at))
@@ -252,25 +249,25 @@ impl View<'_> {
     fn now(&self, painter: &Painter) {
         let theme = &self.theme;
         let sample = self.run.sample_at(self.cursor);
-        let model = self.track.flat(&sample.judgement.model_centrode);
-        let sensor = self.track.flat(&sample.judgement.sensor_centrode);
-        let finite = |at: Flat| at.iter().all(|x| x.is_finite());
-        if let Some(held) = self.track.constrained_at(self.cursor).filter(|&at| finite(at)) {
+        let (model, sensor) = (self.track.model(sample), self.track.sensed(sample));
+        let armed = armed(self.run, sample.time);
+        if let Some(held) = self.track.constrained(self.cursor) {
             mark(painter, self.axes.at(held), Form::Circle, 1.6 * self.size, theme.constrained, theme);
         }
-        if finite(model) && finite(sensor) {
+        if let (Some(model), Some(sensor), true) = (model, sensor, armed) {
             let settings = &self.run.plan.scenario().detection;
             let over = settings.xi2.value().is_some_and(|xi2| sample.judgement.deviation > xi2);
-            let color = if over && sample.time >= settings.armed_from { theme.detection } else { theme.sensor };
+            let color = if over { theme.detection } else { theme.sensor };
             let ends = [self.axes.at(model), self.axes.at(sensor)];
             painter.line_segment(ends, Stroke::new(2.0, color));
             self.deviation(painter, ends, sample.judgement.deviation * 1e3, color);
         }
-        if finite(model) {
+        if let Some(model) = model {
             mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
         }
-        if finite(sensor) {
-            mark(painter, self.axes.at(sensor), Form::Dot, 2.2 * self.size, theme.sensor, theme);
+        if let Some(sensor) = sensor {
+            let color = theme.sensor.gamma_multiply(if armed { 1.0 } else { 0.45 });
+            mark(painter, self.axes.at(sensor), Form::Dot, 2.2 * self.size, color, theme);
         }
     }
 

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
-use super::command::Command;
 use super::fonts;
 use super::theme::Theme;
 use super::widgets::icon::{self, Icon, Look};
@@ -68,7 +67,7 @@ impl ViewState {
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out: &mut Vec<Command>) {
+pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState) {
     let theme = Theme::of(ui);
     let rect = ui.max_rect();
     if !state.has_gpu {
@@ -78,7 +77,8 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out
     }
     let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
-    let mut camera = state.camera.take().unwrap_or_else(|| home_camera(run));
+    let home = home_camera(run);
+    let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
     state.update(run, cursor, theme.dark);
 
@@ -92,7 +92,7 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState, _out
     notes::notes(ui, rect, &camera, run, &state.scene, vec![button, chip]);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();
     // A camera is kept only when it was moved: until then it follows the robot's size.
-    state.camera = (!reset && camera != home_camera(run)).then_some(camera);
+    state.camera = (!reset && camera != home).then_some(camera);
 }
 
 /// Moves the camera as the pointer and the fingers say.

@@ -86,9 +86,6 @@ pub struct Detector {
     detection: Option<Detection>,
 }
 
-/// The motion is in θL alone, and a centrode does not depend on speed: this direction gives c_m at rest, too.
-const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
-
 impl Detector {
     /// A detector for a segment; `epsilon_tau` is the load cells' assumed relative error.
     #[must_use]
@@ -133,7 +130,7 @@ impl Detector {
         let Measurement { configuration, motion, tau_lc, .. } = measurement;
         let (pose, jacobian) = self.segment.arc(*configuration).pose_and_jacobian(self.segment.length);
         let undefined = Vec3::repeat(f64::NAN);
-        let model_centrode = jacobian.centrode(&pose.position, BENDING).unwrap_or(undefined);
+        let model_centrode = jacobian.centrode(&pose.position, Rate::BENDING).unwrap_or(undefined);
         let sensor_centrode = centrode(&motion.position, &motion.twist).unwrap_or(undefined);
         let segment = &self.segment;
         Judgement {
@@ -148,7 +145,8 @@ impl Detector {
     }
 
     fn locate(&self, time: f64, configuration: Configuration, sensor_centrode: &Vec3) -> Option<Detection> {
-        let Location { arc_length, distance } = locate(self.segment.length, configuration, BENDING, sensor_centrode)?;
+        let Location { arc_length, distance } =
+            locate(self.segment.length, configuration, Rate::BENDING, sensor_centrode)?;
         Some(Detection { time, theta_l: configuration.theta_l(), location: arc_length, distance })
     }
 }

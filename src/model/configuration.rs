@@ -79,3 +79,9 @@ pub struct Rate {
     /// δ̇ in rad/s.
     pub delta: f64,
 }
+
+impl Rate {
+    /// θL falls at 1 rad/s, δ rests: the direction of bending. A centrode depends on direction only, so this gives it
+    /// at rest, too.
+    pub const BENDING: Self = Self { theta_l: -1.0, delta: 0.0 };
+}

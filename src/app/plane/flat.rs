@@ -53,19 +53,6 @@ pub struct Mark {
     pub at: Flat,
 }
 
-/// The marks that are at least `least` (mm) from the one kept before: a locus that hardly moves is not a blot.
-#[must_use]
-pub fn thinned(marks: &[Mark], least: f64) -> Vec<Mark> {
-    let mut kept: Vec<Mark> = Vec::new();
-    for mark in marks {
-        let away = |last: &Mark| (mark.at[0] - last.at[0]).hypot(mark.at[1] - last.at[1]);
-        if kept.last().is_none_or(|last| away(last) >= least) {
-            kept.push(*mark);
-        }
-    }
-    kept
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -74,13 +61,5 @@ mod tests {
     fn what_leaves_the_plane_is_projected() {
         let projection = Projection::of(Configuration::new(0.3, 0.0));
         assert_eq!(projection.point(&Vec3::new(0.001, 0.5, 0.002)), [1.0, 2.0]);
-    }
-
-    #[test]
-    fn thinning_keeps_marks_apart() {
-        let marks: Vec<Mark> = (0..100).map(|k| Mark { time: f64::from(k), at: [0.1 * f64::from(k), 0.0] }).collect();
-        let kept = thinned(&marks, 1.0);
-        assert!((9..=11).contains(&kept.len()) && kept[0] == marks[0]);
-        assert!(kept.windows(2).all(|pair| pair[1].at[0] - pair[0].at[0] >= 1.0));
     }
 }

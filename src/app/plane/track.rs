@@ -3,18 +3,12 @@
 use super::flat::{Flat, MM, Mark, Projection, shifted};
 use crate::experiment::plant::{Plant, Shape};
 use crate::experiment::{Run, Sample};
-use crate::model::{Arc, Constrained, Rate, Vec3};
+use crate::model::Arc;
+use crate::scene::view::Proportions;
+use crate::scene::view::track::{self, Spot};
 
-/// Marks of a locus over the whole motion.
-const MARKS: usize = 60;
 /// Points of a drawn backbone.
 const POINTS: usize = 40;
-/// A spacer disk's radius over the pitch radius.
-const DISK: f64 = 1.18;
-/// The beam's radius over the pitch radius.
-const BEAM: f64 = 0.55;
-/// The centrode's direction of motion: bending alone.
-const BENDING: Rate = Rate { theta_l: -1.0, delta: 0.0 };
 
 /// The three loci over the run; a centrode that is not defined has no mark.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -53,6 +47,7 @@ pub struct Beam {
 #[derive(Debug, Clone)]
 pub struct Track<'a> {
     run: &'a Run,
+    sizes: Proportions,
     plant: Plant<'a>,
     projection: Projection,
 }
@@ -63,7 +58,7 @@ impl<'a> Track<'a> {
     pub fn new(run: &'a Run) -> Self {
         let plant = Plant::new(&run.plan);
         let projection = Projection::of(plant.command(0.0).0);
-        Self { run, plant, projection }
+        Self { run, sizes: Proportions::of(run), plant, projection }
     }
 
     /// The true shape at a time.
@@ -84,12 +79,6 @@ impl<'a> Track<'a> {
     #[must_use]
     pub fn place(&self, shape: &Shape, s: f64) -> Flat {
         self.projection.point(&shape.pose(s).position)
-    }
-
-    /// A vector of {B} projected, mm; not defined where it is not.
-    #[must_use]
-    pub fn flat(&self, p: &Vec3) -> Flat {
-        self.projection.point(p)
     }
 
     fn backbone(&self, shape: &Shape) -> Vec<Flat> {
@@ -120,7 +109,7 @@ impl<'a> Track<'a> {
         let of = |s: f64| {
             let pose = shape.pose(s);
             let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
-            [-DISK, DISK].map(|end| shifted(at, across, end * segment.pitch_radius * MM))
+            [-1.0, 1.0].map(|side| shifted(at, across, side * f64::from(self.sizes.disk) * MM))
         };
         std::iter::once(0.0).chain(spacers).chain([segment.length]).map(of).collect()
     }
@@ -133,64 +122,41 @@ impl<'a> Track<'a> {
         let configuration = self.plant.command(0.0).0.with_bend(contact.bend);
         let pose = Arc { length: segment.length, configuration }.pose(contact.arc_length);
         let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
-        let pitch = segment.pitch_radius * MM;
-        let disks = &self.run.plan.scenario().robot.disks;
-        let on_disk = disks.iter().chain([&segment.length]).any(|s| (s - contact.arc_length).abs() < 1e-9);
-        let radius = BEAM * pitch;
-        let away = radius + pitch * if on_disk { DISK } else { 1.0 };
+        let radius = f64::from(self.sizes.beam) * MM;
+        let away = radius + f64::from(self.sizes.surface(contact.arc_length)) * MM;
         Some(Beam { center: shifted(at, across, contact.side * away), radius, touches: at })
     }
 
-    /// Samples at equal steps of the bend, `count` over the motion: marks stand evenly, however slow its ends are.
+    /// c_m in a sample, mm.
     #[must_use]
-    pub fn evenly(&self, count: usize) -> Vec<&'a Sample> {
-        let motion = &self.run.plan.scenario().motion;
-        let step = (motion.theta_end - motion.theta_start).abs() / count as f64;
-        let mut next = 0.0;
-        let mut chosen = Vec::with_capacity(count + 1);
-        for sample in &self.run.samples {
-            let done = (sample.theta_l - motion.theta_start).abs();
-            if step > 0.0 && done > 0.0 && done >= next {
-                chosen.push(sample);
-                next = ((done / step).floor() + 1.0) * step - 1e-9 * step;
-            }
-        }
-        chosen
-    }
-
-    /// The centrode of the segment held at the true contact, mm.
-    fn held_centrode(&self, sample: &Sample) -> Option<Flat> {
-        let contact = self.run.plan.contact().filter(|_| sample.in_contact)?;
-        let configuration = self.plant.command(sample.time).0;
-        let held = Constrained::new(self.run.plan.segment().length, contact.arc_length, contact.bend, configuration);
-        held.centrode(BENDING).map(|c| self.flat(&c))
+    pub fn model(&self, sample: &Sample) -> Option<Flat> {
+        track::model(self.run, sample).as_ref().map(|at| self.projection.point(at))
     }
 
     /// c_c at a time, while contact holds, mm.
     #[must_use]
-    pub fn constrained_at(&self, time: f64) -> Option<Flat> {
-        self.held_centrode(self.run.sample_at(time))
+    pub fn constrained(&self, time: f64) -> Option<Flat> {
+        track::constrained(self.run, time).as_ref().map(|at| self.projection.point(at))
     }
 
-    /// The loci.
+    /// c_s in a sample where it is judged, mm.
     #[must_use]
-    pub fn loci(&self) -> Loci {
-        let mut loci = Loci::default();
-        let least = self.run.plan.scenario().detection.min_speed;
-        let finite = |at: &Flat| at.iter().all(|x| x.is_finite());
-        for sample in self.evenly(MARKS) {
-            let time = sample.time;
-            let model = self.flat(&sample.judgement.model_centrode);
-            loci.model.extend(Some(model).filter(finite).map(|at| Mark { time, at }));
-            loci.constrained.extend(self.held_centrode(sample).filter(finite).map(|at| Mark { time, at }));
+    pub fn sensed(&self, sample: &Sample) -> Option<Flat> {
+        track::sensed(self.run, sample).as_ref().map(|at| self.projection.point(at))
+    }
+
+    /// The loci, the sensor's up to a time (s).
+    #[must_use]
+    pub fn loci(&self, until: f64) -> Loci {
+        let run = self.run;
+        let flat = |spots: Vec<Spot>| {
+            spots.into_iter().map(|spot| Mark { time: spot.time, at: self.projection.point(&spot.at) }).collect()
+        };
+        Loci {
+            model: flat(track::marks(run, &track::model_path(run))),
+            constrained: flat(track::marks(run, &track::constrained_path(run))),
+            sensor: flat(track::dots(run, until)),
         }
-        for sample in self.evenly(MARKS) {
-            let at = self.flat(&sample.judgement.sensor_centrode);
-            if finite(&at) && sample.judgement.speed > least {
-                loci.sensor.push(Mark { time: sample.time, at });
-            }
-        }
-        loci
     }
 
     /// Least and greatest coordinates of what the whole run draws, mm, sensor apart: it may lie anywhere.
@@ -207,7 +173,7 @@ impl<'a> Track<'a> {
         };
         loci.model.iter().chain(&loci.constrained).for_each(|mark| include(mark.at));
         let first = self.run.samples.first();
-        for sample in first.into_iter().chain(self.evenly(12)) {
+        for sample in first.into_iter().chain(track::even(self.run, 12)) {
             let shape = self.truth(sample.time);
             self.disks(&shape).iter().flatten().for_each(|&at| include(at));
             self.ghost(sample.time).into_iter().flatten().for_each(&mut include);
@@ -236,7 +202,7 @@ mod tests {
             scenario.motion.delta = delta;
             let run = simulate(&scenario).expect("run");
             let track = Track::new(&run);
-            (track.bounds(&track.loci()), track.beam().expect("beam"))
+            (track.bounds(&track.loci(99.0)), track.beam().expect("beam"))
         };
         let (straight, turned) = (flat(0.0), flat(2.1));
         for i in 0..2 {
@@ -248,32 +214,12 @@ mod tests {
     }
 
     #[test]
-    fn marks_stand_evenly_along_the_bend() {
-        let run = run("paper");
-        let track = Track::new(&run);
-        let samples = track.evenly(30);
-        assert!((29..=31).contains(&samples.len()), "{}", samples.len());
-        let steps: Vec<f64> = samples.windows(2).map(|pair| pair[0].theta_l - pair[1].theta_l).collect();
-        let even = std::f64::consts::FRAC_PI_2 / 30.0;
-        assert!(steps[1..].iter().all(|step| (step - even).abs() < 0.1 * even), "{steps:?}");
-        assert!(samples.iter().all(|sample| (3.0..=8.0).contains(&sample.time)));
-    }
-
-    #[test]
-    fn constrained_marks_exist_only_while_contact_holds() {
-        let run = run("paper");
-        let loci = Track::new(&run).loci();
-        assert!(!loci.constrained.is_empty() && loci.constrained.iter().all(|mark| mark.time >= 5.8));
-        assert!(Track::new(&self::run("free")).loci().constrained.is_empty());
-    }
-
-    #[test]
     fn the_beam_touches_the_disk_rim_on_the_side_bent_to() {
         let run = run("paper");
         let track = Track::new(&run);
         let beam = track.beam().expect("beam");
         let away = (beam.center[0] - beam.touches[0]).hypot(beam.center[1] - beam.touches[1]);
-        assert!((away - (3.0 * DISK + beam.radius)).abs() < 1e-9);
+        assert!((away - (f64::from(Proportions::of(&run).disk) * MM + beam.radius)).abs() < 1e-9);
         assert!(beam.center[0] > beam.touches[0]);
         // The held shape passes the point that the beam holds, as long as it holds.
         for time in [5.9, 7.0, 9.5] {
@@ -288,7 +234,7 @@ mod tests {
         scenario.motion.theta_end = scenario.motion.theta_start;
         let run = simulate(&scenario).expect("run");
         let track = Track::new(&run);
-        let bounds = track.bounds(&track.loci());
+        let bounds = track.bounds(&track.loci(99.0));
         assert!(bounds.iter().flatten().all(|x| x.is_finite()));
     }
 }

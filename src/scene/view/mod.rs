@@ -2,6 +2,7 @@
 
 mod loci;
 mod robot;
+pub mod track;
 
 use super::palette::Palette;
 use super::{Camera, Ground, Pose, Scene};
@@ -10,7 +11,7 @@ use crate::experiment::plant::Plant;
 use crate::model::{self, Arc};
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
-use robot::Proportions;
+pub use robot::Proportions;
 use std::f32::consts::PI;
 
 /// How a run is shown.

@@ -10,11 +10,14 @@ use glam::{Quat, Vec2, Vec3};
 const FRAMES: usize = 48;
 
 /// Sizes in m that the scenario leaves open, in proportion to those it gives.
+#[derive(Debug, Clone)]
 pub struct Proportions {
     length: f32,
     pitch: f32,
     /// Outer radius of a spacer disk.
     pub disk: f32,
+    /// Radius of the beam.
+    pub beam: f32,
     primary: f32,
     secondary: f32,
     spacers: Vec<f32>,
@@ -31,7 +34,7 @@ impl Proportions {
             (robot.primary.outer_diameter as f32 / 2.0, robot.secondary.outer_diameter as f32 / 2.0);
         let disk = pitch + (2.6 * secondary).max(0.3 * pitch);
         let spacers = robot.disks.iter().map(|&s| s as f32).collect();
-        Self { length, pitch, disk, primary, secondary, spacers, floor: -0.62 * disk }
+        Self { length, pitch, disk, beam: 0.5 * pitch, primary, secondary, spacers, floor: -0.62 * disk }
     }
 
     /// Points around the base and around the end disk at `tip`: what a picture must hold of the robot in a shape.
@@ -39,6 +42,16 @@ impl Proportions {
         let foot = Pose::new(Vec3::Z * self.floor, Quat::IDENTITY);
         let end = Pose::new(tip.point(Vec3::Z * 0.3 * self.disk), tip.rotation);
         arc::circle(foot, 1.57 * self.disk, 12).into_iter().chain(arc::circle(end, self.disk, 12))
+    }
+
+    /// Whether a disk or the end disk stands at arc length `s` (m).
+    pub fn at_disk(&self, s: f64) -> bool {
+        self.spacers.iter().chain([&self.length]).any(|&disk| (disk - s as f32).abs() < 1e-6)
+    }
+
+    /// How far the robot's side is from its primary backbone at arc length `s` (m): a disk's rim, or a backbone.
+    pub fn surface(&self, s: f64) -> f32 {
+        if self.at_disk(s) { self.disk } else { self.pitch + self.secondary }
     }
 
     fn holes(&self) -> Vec<Hole> {
@@ -125,11 +138,10 @@ pub fn beam(
     (delta, touched): (f32, bool),
 ) {
     let side = contact.side as f32;
-    let rod = 0.5 * sizes.pitch;
+    let rod = sizes.beam;
     // x toward which the segment bends, y along the bending axis and away from the viewer, z along the backbone.
     let frame = at.then(&Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta)));
-    let at_disk = sizes.spacers.iter().chain([&sizes.length]).any(|&s| (s - contact.arc_length as f32).abs() < 1e-6);
-    let surface = side * if at_disk { sizes.disk } else { sizes.pitch + sizes.secondary };
+    let surface = side * sizes.surface(contact.arc_length);
     let along = |y: f32| frame.point(Vec3::new(surface + side * rod, side * y * sizes.disk, 0.0));
     let cylinder = |position, rotation, radius, half_length| Block {
         pose: Pose::new(position, rotation),
