@@ -168,8 +168,8 @@ fn a_bend_typed_for_the_contact_is_named_so() {
     type_into(&mut page, "Contact time", "45°");
     assert_eq!(field(&page, "Contact bend"), "45.0");
     assert!(page.query_by_role_and_label(Role::Slider, "Contact time").is_none());
-    slide(&mut page, "Contact bend", 5.5);
-    assert_eq!(field(&page, "Contact time"), "5.50");
+    slide(&mut page, "Contact bend", 5.6);
+    assert_eq!(field(&page, "Contact time"), "5.60");
 }
 
 #[test]
