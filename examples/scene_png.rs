@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         let page = ui.ctx().content_rect();
                         ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
                         let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
-                        viewport(&mut view, &run, time, &mut state, &mut Vec::new());
+                        viewport(&mut view, &run, time, &mut state);
                         layout::round(&view, page.shrink(8.0));
                     });
                 page.run_ok();

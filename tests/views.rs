@@ -217,7 +217,7 @@ fn both_views_draw_in_every_size_and_theme() {
         ("bench", 6.9, vec2(1280.0, 600.0), egui::Theme::Light),
         ("bench", 6.9, vec2(390.0, 860.0), egui::Theme::Dark),
         ("disk-1", 7.4, vec2(390.0, 860.0), egui::Theme::Light),
-        ("out-and-in", 5.2, vec2(1280.0, 600.0), egui::Theme::Light),
+        ("letting-go", 5.2, vec2(1280.0, 600.0), egui::Theme::Light),
         ("static-resolution", 6.0, vec2(1280.0, 600.0), egui::Theme::Dark),
         ("free", 2.0, vec2(1280.0, 600.0), egui::Theme::Dark),
     ];

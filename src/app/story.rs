@@ -267,7 +267,7 @@ mod tests {
                 |s| s.contact.start = crate::experiment::scenario::Start::Time(9.0),
                 "The motion never reaches the beam",
             ),
-            ("out-and-in", |_| {}, "from the start"),
+            ("letting-go", |_| {}, "from the start"),
         ] {
             let said = words(&run(name, change));
             assert!(said.contains(part), "{name}: {said}");

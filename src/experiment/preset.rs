@@ -28,7 +28,7 @@ pub const PRESETS: &[Preset] = presets![
     "mid-gap",
     "static-resolution",
     "gimbal-lock",
-    "out-and-in",
+    "letting-go",
 ];
 
 impl Preset {

@@ -208,7 +208,7 @@ mod tests {
 
     #[test]
     fn contact_that_opens_again_ends() {
-        let spans = contacts(&run("out-and-in"));
+        let spans = contacts(&run("letting-go"));
         assert_eq!(spans.len(), 1);
         assert!(spans[0].0 == 0.0 && spans[0].1 < 8.0);
         assert!(contacts(&run("free")).is_empty());
