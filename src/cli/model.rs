@@ -99,7 +99,7 @@ impl ModelArgs {
         for (flag, value, (least, most)) in
             [("--length", segment.length, LENGTHS), ("--pitch-radius", segment.pitch_radius, RADII)]
         {
-            let allowed = format!("a number from {} to {} m", number(least), number(most));
+            let allowed = format!("a number from {} m to {} m", number(least), number(most));
             demand((least..=most).contains(&value), flag, value, &allowed)?;
         }
         for (flag, value) in [("--ep-ip", segment.ep_ip), ("--es-is", segment.es_is)] {

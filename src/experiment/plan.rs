@@ -164,7 +164,7 @@ fn refusal(key: &str, value: String, allowed: impl Into<String>) -> ScenarioErro
 }
 
 fn between(key: &str, value: f64, least: f64, most: f64, unit: &str) -> Result<(), ScenarioError> {
-    let allowed = format!("a number from {} to {} {unit}", text::number(least), text::number(most));
+    let allowed = format!("a number from {} {unit} to {} {unit}", text::number(least), text::number(most));
     demand(value >= least && value <= most, key, value, &allowed)
 }
 
@@ -189,7 +189,7 @@ fn check_robot(scenario: &Scenario) -> Result<(), ScenarioError> {
         let inside = tube.inner_diameter >= 0.0 && tube.inner_diameter < tube.outer_diameter;
         let allowed = format!("from 0 to below the outer diameter, {} m", tube.outer_diameter);
         demand(inside, &key("inner_diameter"), tube.inner_diameter, &allowed)?;
-        between(&key("youngs_modulus"), tube.youngs_modulus, 1.0, 1e13, "Pa")?;
+        between(&key("youngs_modulus"), tube.youngs_modulus, 1e6, 1e13, "Pa")?;
     }
     Ok(())
 }

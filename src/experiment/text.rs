@@ -257,7 +257,7 @@ mod tests {
             ("[robot]\nlenght = 1", &["robot.lenght", "length"]),
             ("[robot.primary]\nx = 1", &["robot.primary.x", "outer_diameter"]),
             ("robot = 3", &["robot", "3", "table"]),
-            ("[robot]\nlength = -0.03", &["robot.length", "-0.03", "0.0001 to 100"]),
+            ("[robot]\nlength = -0.03", &["robot.length", "-0.03", "0.0001 m to 100 m"]),
             ("[robot]\nlength = nan", &["robot.length", "nan"]),
             ("[robot]\nlength = \"long\"", &["robot.length", "long", "a number"]),
             ("[robot]\nlength = 0.02", &["robot.disks[2]", "0.0225", "0.02"]),
