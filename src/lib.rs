@@ -18,7 +18,7 @@
 //! | constrained segment and its centrode | 20–23 | [`model::Constrained`] |
 //! | location of the contact | 24 | [`model::locate`] |
 //!
-//! Read [`model`], then [`experiment`], then [`scene`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
+//! Read [`model`], then [`experiment`], then [`study`] and [`scene`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
 //! `tests/it/misprints.rs` shows it.
 
 #[cfg(feature = "app")]
@@ -30,5 +30,6 @@ pub mod model;
 #[cfg(feature = "app")]
 pub mod render;
 pub mod scene;
+pub mod study;
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 mod web;

@@ -23,7 +23,7 @@ const MAX_FORCE: f64 = 1e6;
 /// Times go this far, s.
 const MAX_TIME: f64 = 1e9;
 /// The largest seed that TOML can hold.
-const MAX_SEED: u64 = i64::MAX as u64;
+pub const MAX_SEED: u64 = i64::MAX as u64;
 
 /// Why a scenario is refused.
 #[derive(Debug, Clone, PartialEq, Error)]

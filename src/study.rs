@@ -1,0 +1,40 @@
+//! What one run does not show: repeats, figures, tables and maps.
+//!
+//! Everything here is a [`Job`] that works a piece at a time, so that a frame of the page, a worker or a loop on a
+//! terminal can drive it, and whose result may be looked at before it is complete. Same inputs, same bits.
+
+pub mod figure;
+pub mod seed;
+
+/// Work in pieces of a few milliseconds.
+pub trait Job {
+    /// Does one piece. Once nothing is left it does nothing.
+    fn step(&mut self);
+
+    /// How far it is.
+    fn progress(&self) -> Progress;
+
+    /// Does all that is left.
+    fn finish(&mut self) {
+        while !self.progress().is_complete() {
+            self.step();
+        }
+    }
+}
+
+/// Pieces of work done, of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Progress {
+    /// Pieces done.
+    pub done: usize,
+    /// Pieces in all.
+    pub of: usize,
+}
+
+impl Progress {
+    /// Whether nothing is left to do.
+    #[must_use]
+    pub fn is_complete(self) -> bool {
+        self.done >= self.of
+    }
+}
