@@ -6,6 +6,9 @@ use crate::model::centrode::centrode;
 use crate::model::{Configuration, Location, Rate, Segment, Vec3, locate};
 use serde::Serialize;
 
+/// Added to ε_τ where the bound is a threshold, so that the last bits of Θ raise no alarm at k = 1 or without errors.
+const ROUNDING: f64 = 1e-12;
+
 /// How a contact is noticed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -46,6 +49,8 @@ pub struct Judgement {
     pub common_bound: f64,
     /// ε_c for independent errors of the cells, N·m.
     pub independent_bound: f64,
+    /// ε_c(θL) of the free model at the commanded shape, N·m: what ξ1 follows when it follows the shape.
+    pub shape_bound: f64,
 }
 
 /// A threshold crossed upward.
@@ -100,7 +105,7 @@ impl Detector {
         let moving = judgement.speed > self.thresholds.min_speed;
         let values = [
             (Method::Fcd, judgement.deviation, self.thresholds.xi2.value(), moving),
-            (Method::Jfd, judgement.residual, self.thresholds.xi1.value(), true),
+            (Method::Jfd, judgement.residual, self.thresholds.xi1_at(judgement.shape_bound), true),
         ];
         for (which, (method, value, threshold, judged)) in values.into_iter().enumerate() {
             // What is not defined or not judged leaves the alarm as it was.
@@ -141,6 +146,7 @@ impl Detector {
             residual: segment.residual(configuration, tau_lc),
             common_bound: segment.common_error_bound(configuration, tau_lc, self.epsilon_tau),
             independent_bound: segment.independent_error_bound(configuration, tau_lc, self.epsilon_tau),
+            shape_bound: segment.shape_bound(configuration, self.epsilon_tau + ROUNDING),
         }
     }
 

@@ -12,6 +12,8 @@ pub enum Source {
     Tracker = 1,
     /// The load cells' readings.
     LoadCells = 2,
+    /// The load cells' relative errors.
+    CellErrors = 3,
 }
 
 /// A stream of standard normal deviates.
@@ -46,8 +48,8 @@ impl Normal {
         }
     }
 
-    /// Uniform in [−1, 1), 53 bits.
-    fn symmetric(&mut self) -> f64 {
+    /// The next number of an even distribution in [−1, 1), 53 bits.
+    pub fn symmetric(&mut self) -> f64 {
         (self.generator.next_u64() >> 11) as f64 * (1.0 / (1u64 << 52) as f64) - 1.0
     }
 }

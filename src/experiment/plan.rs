@@ -1,6 +1,6 @@
 //! A scenario, validated once: what follows cannot fail.
 
-use super::scenario::{Place, Scenario, Start, Threshold};
+use super::scenario::{Load, Place, Scenario, Start, Threshold};
 use super::{motion, text};
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
@@ -20,6 +20,8 @@ pub const RADII: (f64, f64) = (1e-6, 100.0);
 pub const MAX_TURN: f64 = 1e6;
 /// Forces of load cells go this far, N.
 const MAX_FORCE: f64 = 1e6;
+/// Moments on the end disk go this far, N·m.
+const MAX_MOMENT: f64 = 1e6;
 /// Times go this far, s.
 const MAX_TIME: f64 = 1e9;
 /// The largest seed that TOML can hold.
@@ -232,6 +234,7 @@ fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
     demand((0.0..1.0).contains(&epsilon), "load_cells.epsilon_tau", epsilon, "from 0 to below 1")?;
     between("load_cells.noise", cells.noise, 0.0, MAX_FORCE, "N")?;
     between("load_cells.preload", cells.preload, -MAX_FORCE, MAX_FORCE, "N")?;
+    check_load(&scenario.load)?;
     let detection = &scenario.detection;
     for (key, threshold, unit) in [("detection.xi1", detection.xi1, "N·m"), ("detection.xi2", detection.xi2, "m")] {
         if let Threshold::On(value) = threshold {
@@ -239,8 +242,23 @@ fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
             demand(value >= 0.0 && value.is_finite(), key, value, &allowed)?;
         }
     }
+    let factor = detection.xi1_factor;
+    demand(factor >= 0.0 && factor.is_finite(), "detection.xi1_factor", factor, "a finite number, 0 or more")?;
     not_negative("detection.armed_from", detection.armed_from, "s")?;
     not_negative("detection.min_speed", detection.min_speed, "rad/s")
+}
+
+fn check_load(load: &Load) -> Result<(), ScenarioError> {
+    for (key, values, most, unit) in
+        [("load.force", load.force, MAX_FORCE, "N"), ("load.moment", load.moment, MAX_MOMENT, "N·m")]
+    {
+        for (i, value) in values.into_iter().enumerate() {
+            between(&format!("{key}[{i}]"), value, -most, most, unit)?;
+        }
+    }
+    not_negative("load.start", load.start, "s")?;
+    let later = load.finish >= load.start && load.finish.is_finite();
+    demand(later, "load.finish", load.finish, &format!("a time at or after load.start = {} s", load.start))
 }
 
 fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {

@@ -3,7 +3,7 @@
 use super::Plan;
 use super::motion::command;
 use crate::model::configuration::bend_from_theta_l;
-use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Vec3};
+use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Vec3, Wrench};
 
 /// The true shape of the backbone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -79,13 +79,26 @@ impl<'a> Plant<'a> {
         }
     }
 
-    /// True joint forces τ (N): they balance the gradient of the true energy by virtual work on the true shape,
-    /// plus the preload.
+    /// The wrench on the end disk at `time` (s), in {B}.
+    #[must_use]
+    pub fn wrench(&self, time: f64) -> Wrench {
+        let load = &self.plan.scenario().load;
+        let (since, rise) = (time - load.start, load.finish - load.start);
+        let share = match since {
+            before if before < 0.0 => 0.0,
+            after if after >= rise => 1.0,
+            within => within / rise,
+        };
+        Wrench { force: Vec3::from(load.force) * share, moment: Vec3::from(load.moment) * share }
+    }
+
+    /// True joint forces τ (N): by virtual work on the true shape they balance the gradient of its energy less the
+    /// work of `wrench` on the end disk (Eq. 11), plus the preload.
     ///
     /// NaN where the part above the beam bends so sharply that a secondary backbone would have no length left:
     /// constant curvature says nothing there.
     #[must_use]
-    pub fn joint_forces(&self, configuration: Configuration) -> Vec3 {
+    pub fn joint_forces(&self, configuration: Configuration, wrench: &Wrench) -> Vec3 {
         let segment = self.plan.segment();
         let preload = self.plan.scenario().load_cells.preload;
         let (part, shape) = match self.plan.contact() {
@@ -99,6 +112,12 @@ impl<'a> Plant<'a> {
         if part.shortest_backbone(shape.bend()) <= 0.0 {
             return Vec3::repeat(f64::NAN);
         }
-        part.forces_from_load(&shape, &part.energy_gradient(&shape)).add_scalar(preload)
+        let mut load = part.energy_gradient(&shape);
+        if *wrench != Wrench::ZERO {
+            // Above a beam the Jacobian's bend is that part's own, as is the gradient's.
+            let jacobian = self.shape(configuration).tip_pose_and_jacobian().1;
+            load = load.minus(&jacobian.transposed_times(wrench));
+        }
+        part.forces_from_load(&shape, &load).add_scalar(preload)
     }
 }

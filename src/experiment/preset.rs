@@ -29,6 +29,7 @@ pub const PRESETS: &[Preset] = presets![
     "static-resolution",
     "gimbal-lock",
     "letting-go",
+    "load-at-rest",
 ];
 
 impl Preset {

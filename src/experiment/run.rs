@@ -82,6 +82,7 @@ pub const CHANNELS: &[Channel] = channels! {
     "residual", "N·m", x => x.judgement.residual;
     "bound_common", "N·m", x => x.judgement.common_bound;
     "bound_independent", "N·m", x => x.judgement.independent_bound;
+    "bound_shape", "N·m", x => x.judgement.shape_bound;
 };
 
 /// The experiment as a stream: what it keeps is one filter length of readings, and the crossings.
@@ -151,7 +152,7 @@ impl Iterator for Simulation<'_> {
         }
         let reading = self.tracker.read(&self.plant, time);
         let motion = self.filter.push(&reading);
-        let tau_lc = self.cells.read(&self.plant.joint_forces(configuration));
+        let tau_lc = self.cells.read(&self.plant.joint_forces(configuration, &self.plant.wrench(time)));
         let measurement = Measurement { time, configuration, motion, tau_lc };
         let crossings = &mut self.crossings;
         let judgement = self.detector.judge(&measurement, |crossing| crossings.push(crossing));

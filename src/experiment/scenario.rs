@@ -24,6 +24,8 @@ pub struct Scenario {
     pub tracker: Tracker,
     /// The load cells on the secondary backbones.
     pub load_cells: LoadCells,
+    /// The wrench on the end disk.
+    pub load: Load,
     /// The moving average over the tracker's readings.
     pub filter: Filter,
     /// Thresholds and arming.
@@ -40,6 +42,7 @@ impl Default for Scenario {
             contact: Contact::default(),
             tracker: Tracker::default(),
             load_cells: LoadCells::default(),
+            load: Load::default(),
             filter: Filter::default(),
             detection: Thresholds::default(),
         }
@@ -277,8 +280,10 @@ pub enum Mounting {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LoadCells {
-    /// Relative error ε_τ, common to the three cells: τ_lc = τ/(1 − ε_τ). The paper estimates 10 %.
+    /// Relative error ε_τ: τ_lc,i = τ_i/(1 − ε_i). The paper estimates 10 %.
     pub epsilon_tau: f64,
+    /// What ε_τ says about the three ε_i (the paper has them in common).
+    pub errors: CellErrors,
     /// Standard deviation of white noise on each reading, N (default none: illustrative).
     pub noise: f64,
     /// Force added to all three backbones alike, N (default none: illustrative).
@@ -287,7 +292,38 @@ pub struct LoadCells {
 
 impl Default for LoadCells {
     fn default() -> Self {
-        Self { epsilon_tau: 0.10, noise: 0.0, preload: 0.0 }
+        Self { epsilon_tau: 0.10, errors: CellErrors::Common, noise: 0.0, preload: 0.0 }
+    }
+}
+
+/// How the relative errors of the three load cells are related.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CellErrors {
+    /// All three are ε_τ (Eq. 13): the residual stays within Eq. 16.
+    Common,
+    /// Each is drawn from the seed, evenly between −ε_τ and ε_τ: the residual grows with the preload.
+    Independent,
+}
+
+/// A wrench on the end disk (Eq. 11) that ramps up in proportion to time and stays; it does not move the robot,
+/// whose joints hold their positions.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Load {
+    /// Force at the end disk's centre once it is whole, in {B}, N (default none: illustrative).
+    pub force: [f64; 3],
+    /// Moment once it is whole, in {B}, N·m (default none: illustrative).
+    pub moment: [f64; 3],
+    /// When it begins to grow, s (illustrative).
+    pub start: f64,
+    /// When it is whole, s (illustrative).
+    pub finish: f64,
+}
+
+impl Default for Load {
+    fn default() -> Self {
+        Self { force: [0.0; 3], moment: [0.0; 3], start: 8.5, finish: 9.5 }
     }
 }
 
@@ -323,6 +359,10 @@ pub enum Averaging {
 pub struct Thresholds {
     /// ξ1 of the joint force deviation Θ, N·m, or `"off"` (illustrative: above ε_c of the default robot).
     pub xi1: Threshold,
+    /// Whether ξ1 is that constant, or follows the shape as k·ε_c(θL) (illustrative). `xi1 = "off"` silences both.
+    pub xi1_rule: Xi1Rule,
+    /// k in k·ε_c(θL) (illustrative: half again what friction alone can do).
+    pub xi1_factor: f64,
     /// ξ2 of the fixed centrode deviation ‖c_m − c_s‖, m, or `"off"`.
     pub xi2: Threshold,
     /// No alarm is raised before this time, s.
@@ -333,8 +373,37 @@ pub struct Thresholds {
 
 impl Default for Thresholds {
     fn default() -> Self {
-        Self { xi1: Threshold::On(0.03), xi2: Threshold::On(0.007), armed_from: 5.0, min_speed: 0.05 }
+        Self {
+            xi1: Threshold::On(0.03),
+            xi1_rule: Xi1Rule::Constant,
+            xi1_factor: 1.5,
+            xi2: Threshold::On(0.007),
+            armed_from: 5.0,
+            min_speed: 0.05,
+        }
     }
+}
+
+impl Thresholds {
+    /// ξ1 where the free model's bound ε_c(θL) is `shape_bound` (N·m): a constant, or k times that; none while switched off.
+    #[must_use]
+    pub fn xi1_at(&self, shape_bound: f64) -> Option<f64> {
+        let constant = self.xi1.value()?;
+        Some(match self.xi1_rule {
+            Xi1Rule::Constant => constant,
+            Xi1Rule::Bound => self.xi1_factor * shape_bound,
+        })
+    }
+}
+
+/// What ξ1 is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Xi1Rule {
+    /// `detection.xi1`, everywhere.
+    Constant,
+    /// `detection.xi1_factor` times the bound ε_c (Eq. 16) of the free model at the commanded shape.
+    Bound,
 }
 
 /// A threshold that can be switched off.

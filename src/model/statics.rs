@@ -59,6 +59,18 @@ impl Covector {
     }
 }
 
+impl Jacobian {
+    /// J_xψᵀ W_e, N·m: what a wrench on the frame asks of ψ (Eq. 11).
+    #[must_use]
+    pub fn transposed_times(&self, wrench: &Wrench) -> Covector {
+        Covector {
+            theta_l: self.theta_l.power(wrench),
+            delta_per_bend: self.delta_per_bend.power(wrench),
+            bend: self.bend,
+        }
+    }
+}
+
 impl Segment {
     /// The primary backbone in a configuration.
     #[must_use]
@@ -134,12 +146,7 @@ impl Segment {
         wrench: &Wrench,
         preload: f64,
     ) -> Vec3 {
-        let gradient = self.energy_gradient(configuration);
-        let load = Covector {
-            theta_l: gradient.theta_l - jacobian.theta_l.power(wrench),
-            delta_per_bend: gradient.delta_per_bend - jacobian.delta_per_bend.power(wrench),
-            bend: configuration.bend(),
-        };
+        let load = self.energy_gradient(configuration).minus(&jacobian.transposed_times(wrench));
         self.forces_from_load(configuration, &load).add_scalar(preload)
     }
 
@@ -168,6 +175,13 @@ impl Segment {
     #[must_use]
     pub fn common_error_bound(&self, configuration: &Configuration, tau_lc: &Vec3, epsilon_tau: f64) -> f64 {
         epsilon_tau * self.generalised_force(configuration, tau_lc).norm()
+    }
+
+    /// ε_c(θL) = ε_τ/(1 − ε_τ) ‖∇E‖, N·m: [`Segment::common_error_bound`] of the free segment, whose cells all read
+    /// τ/(1 − ε_τ). It depends on the shape alone, and vanishes as the segment straightens.
+    #[must_use]
+    pub fn shape_bound(&self, configuration: &Configuration, epsilon_tau: f64) -> f64 {
+        epsilon_tau / (1.0 - epsilon_tau) * self.energy_gradient(configuration).norm()
     }
 
     /// The bound for independent cell errors |εᵢ| ≤ ε_τ: the largest ‖J_qψᵀ diag(±ε_τ) τ_lc‖ over the sign choices, N·m.

@@ -55,3 +55,8 @@ pub struct Wrench {
     /// Moment in N·m.
     pub moment: Vec3,
 }
+
+impl Wrench {
+    /// None.
+    pub const ZERO: Self = Self { force: Vec3::new(0.0, 0.0, 0.0), moment: Vec3::new(0.0, 0.0, 0.0) };
+}

@@ -3,6 +3,7 @@
 #[cfg(feature = "cli")]
 mod cli;
 mod experiment;
+mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
