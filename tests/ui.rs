@@ -344,7 +344,7 @@ fn presets_theme_groups_and_help() {
     type_into(&mut page, "Length L", "20 mm");
     assert!(page.query_by_label_contains("robot.disks[2]").is_some(), "{:?}", app(&page).notes());
     click(&mut page, "Robot");
-    click(&mut page, "Tracker and cells");
+    click(&mut page, "Tracker");
     click(&mut page, "aligned");
     assert_eq!(app(&page).state().scenario.tracker.mounting, centrode::experiment::scenario::Mounting::Aligned);
     click(&mut page, "Theme: system");

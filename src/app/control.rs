@@ -14,6 +14,8 @@ pub struct Group {
     pub controls: &'static [Control],
     /// Options.
     pub choices: &'static [Choice],
+    /// What is worth knowing about them, below; empty for nothing.
+    pub note: &'static str,
 }
 
 /// How values lie along a slider, in the unit shown.

@@ -150,8 +150,19 @@ fn joint_forces(run: &Run) -> String {
             number(alarm.time, 3),
             seconds(contact - alarm.time)
         ),
+        (Some(alarm), None) if loaded_by(run, alarm.time) => format!(
+            "Joint forces noticed the load on the tip at {} s, {} after it began.",
+            number(alarm.time, 3),
+            seconds(alarm.time - run.plan.scenario().load.start)
+        ),
         (Some(alarm), None) => format!("Joint forces raised a false alarm at {} s.", number(alarm.time, 3)),
     }
+}
+
+/// Whether a load has begun to act on the tip by a time (s).
+fn loaded_by(run: &Run, time: f64) -> bool {
+    let load = &run.plan.scenario().load;
+    time >= load.start && (load.force != [0.0; 3] || load.moment != [0.0; 3])
 }
 
 /// The run in one sentence.

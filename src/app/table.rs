@@ -5,7 +5,7 @@ use super::quantity::Quantity;
 use super::{span, words};
 use crate::experiment::Scenario;
 use crate::experiment::scenario::{Averaging, Mounting, Start, Threshold};
-use Quantity::{Angle, AngularSpeed, Count, Force, Frequency, Length, Modulus, Moment, Ratio, Time};
+use Quantity::{Angle, AngularSpeed, Count, Frequency, Length, Modulus, Moment, Ratio, Time};
 use Scale::{Linear, Log, LogWhole, Stops, Whole};
 
 /// The parts of a row that a field of the scenario gives.
@@ -18,10 +18,15 @@ macro_rules! field {
     (whole $($path:ident).+) => {
         Field(|s| Some(s.$($path).+ as f64), |s, v| s.$($path).+ = v as u64, |from, to| to.$($path).+ = from.$($path).+)
     };
+    (part $i:literal of $($path:ident).+) => {
+        Field(|s| Some(s.$($path).+[$i]), |s, v| s.$($path).+[$i] = v, |from, to| to.$($path).+[$i] = from.$($path).+[$i])
+    };
     (threshold $($path:ident).+) => {
         Field(|s| s.$($path).+.value(), |s, v| s.$($path).+ = Threshold::On(v), |from, to| to.$($path).+ = from.$($path).+)
     };
 }
+
+mod forces;
 
 type Range = fn(&Scenario) -> (f64, f64);
 
@@ -103,7 +108,7 @@ const SENSORS: &[Control] = &[
         Linear(0.5),
         |_| (0.0, 50.0),
         field!(load_cells.epsilon_tau),
-        "Relative error common to the three load cells; it sets the bound ε_c.",
+        "Relative error of the three load cells, which sets the bound ε_c; friction counts as one.",
     ),
     row(
         "tracker.position_noise",
@@ -174,6 +179,16 @@ const THRESHOLDS: &[Control] = &[
             "Alarm when the joint force deviation Θ exceeds this.",
         ),
         |s| s.detection.xi1 = Threshold::OFF,
+    ),
+    row(
+        "detection.xi1_factor",
+        "k in k·ε_c(θL)",
+        Count,
+        2,
+        Linear(0.05),
+        |_| (0.0, 5.0),
+        field!(detection.xi1_factor),
+        "ξ1 as a multiple of the bound ε_c at the shape, while ξ1 follows the shape. Below 1, friction alone alarms.",
     ),
     row(
         "detection.armed_from",
@@ -333,26 +348,6 @@ const DEVICES: &[Control] = &[
         "Angles are rounded to multiples of this; 0 does not round.",
     ),
     row(
-        "load_cells.noise",
-        "Load cell noise",
-        Force,
-        3,
-        Log(0.001),
-        |_| (0.0, 5.0),
-        field!(load_cells.noise),
-        "Standard deviation of white noise on each load cell.",
-    ),
-    row(
-        "load_cells.preload",
-        "Preload",
-        Force,
-        1,
-        Linear(0.5),
-        |_| (0.0, 50.0),
-        field!(load_cells.preload),
-        "Force added to all three secondary backbones alike.",
-    ),
-    row(
         "detection.min_speed",
         "Speed floor",
         AngularSpeed,
@@ -387,13 +382,21 @@ const DEVICE_CHOICES: &[Choice] = &[
 
 /// All of them, in the order shown.
 pub static GROUPS: &[Group] = &[
-    Group { name: "Contact", folded: false, controls: CONTACT, choices: &[] },
-    Group { name: "Sensors", folded: false, controls: SENSORS, choices: &[] },
-    Group { name: "Filter", folded: false, controls: FILTER, choices: &[] },
-    Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: &[] },
-    Group { name: "Motion", folded: true, controls: MOTION, choices: &[] },
-    Group { name: "Robot", folded: true, controls: ROBOT, choices: &[] },
-    Group { name: "Tracker and cells", folded: true, controls: DEVICES, choices: DEVICE_CHOICES },
+    Group { name: "Contact", folded: false, controls: CONTACT, choices: &[], note: "" },
+    Group { name: "Sensors", folded: false, controls: SENSORS, choices: &[], note: "" },
+    Group { name: "Filter", folded: false, controls: FILTER, choices: &[], note: "" },
+    Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: forces::XI1_CHOICES, note: "" },
+    Group { name: "Motion", folded: true, controls: MOTION, choices: &[], note: "" },
+    Group { name: "Robot", folded: true, controls: ROBOT, choices: &[], note: "" },
+    Group { name: "Tracker", folded: true, controls: DEVICES, choices: DEVICE_CHOICES, note: "" },
+    Group {
+        name: "Load cells",
+        folded: true,
+        controls: forces::CELLS,
+        choices: forces::CELL_CHOICES,
+        note: forces::PRELOAD_NOTE,
+    },
+    Group { name: "Load on the tip", folded: true, controls: forces::LOAD, choices: &[], note: "" },
 ];
 
 /// The control of a key.
@@ -445,7 +448,7 @@ mod tests {
             .iter()
             .flat_map(|group| group.controls.iter().map(|c| c.key).chain(group.choices.iter().map(|c| c.key)))
         {
-            let name = key.rsplit('.').next().expect("name");
+            let name = key.rsplit('.').next().and_then(|name| name.split('[').next()).expect("name");
             assert!(toml.lines().any(|line| line.starts_with(&format!("{name} ="))), "{key}");
         }
     }

@@ -11,7 +11,7 @@ use crate::app::state::State;
 use crate::app::table::GROUPS;
 use crate::app::theme::Theme;
 use crate::app::widgets::{icon, text};
-use crate::app::{fonts, layout};
+use crate::app::{fonts, layout, notation};
 use crate::experiment::Scenario;
 
 /// What the panel needs to know.
@@ -74,6 +74,12 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
         for choice in group.choices {
             let context = Context { scenario, base, note: note(choice.key), remembered: None, touch };
             row::choice(ui, choice, &context, out);
+        }
+        if !group.note.is_empty() {
+            ui.add_space(6.0);
+            let job = notation::job(group.note, 11.5, theme.dim);
+            ui.add(egui::Label::new(job).wrap());
+            ui.add_space(8.0);
         }
     });
 }

@@ -9,7 +9,7 @@ use super::threshold::Line;
 use crate::app::command::Command;
 use crate::app::notation::{job, number};
 use crate::app::theme::Theme;
-use crate::experiment::scenario::Threshold;
+use crate::experiment::scenario::{Threshold, Xi1Rule};
 use crate::experiment::{Method, Sample};
 use egui::{Color32, Ui};
 
@@ -43,17 +43,21 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
             long: "Centrode deviation ‖c_m − c_s‖ (mm)",
             short: "‖c_m − c_s‖ (mm)",
             label: "Plot of the centrode deviation over time",
+            judges: true,
             others: &[],
         },
     );
 }
 
-/// Θ with ξ1, and both bounds ε_c.
+/// Θ with both rules of ξ1, and both bounds ε_c.
 pub fn force(ui: &mut Ui, view: &mut View<'_>) {
     let settings = view.run.plan.scenario().detection.clone();
     let color = force_color(&view.frame.theme);
     let value = |sample: &Sample| sample.judgement.residual * JFD.scale;
     let dim = view.frame.theme.dim;
+    let follows = settings.xi1_rule == Xi1Rule::Bound;
+    let on = follows && settings.xi1.value().is_some();
+    let factor = settings.xi1_factor;
     judging(
         ui,
         view,
@@ -68,16 +72,23 @@ pub fn force(ui: &mut Ui, view: &mut View<'_>) {
             long: "Joint force deviation Θ (mN·m)",
             short: "Θ (mN·m)",
             label: "Plot of the joint force deviation over time",
+            judges: !follows,
             others: &[
                 Other {
+                    name: "k·ε_c",
+                    value: &|sample| factor * sample.judgement.shape_bound * JFD.scale,
+                    color: if on { color } else { color.gamma_multiply(0.6) },
+                    style: if on { Style::Thin } else { Style::Dashed },
+                },
+                Other {
                     name: "ε_c",
-                    value: |sample| sample.judgement.common_bound * JFD.scale,
+                    value: &|sample| sample.judgement.common_bound * JFD.scale,
                     color: dim,
                     style: Style::Thin,
                 },
                 Other {
                     name: "ε_c indep.",
-                    value: |sample| sample.judgement.independent_bound * JFD.scale,
+                    value: &|sample| sample.judgement.independent_bound * JFD.scale,
                     color: dim,
                     style: Style::Dashed,
                 },
@@ -94,13 +105,15 @@ struct Shown<'a> {
     long: &'a str,
     short: &'a str,
     label: &'a str,
-    others: &'a [Other],
+    /// Whether the constant judges, or one of the others in its place.
+    judges: bool,
+    others: &'a [Other<'a>],
 }
 
 /// A line beside the one that is judged.
-struct Other {
+struct Other<'a> {
     name: &'static str,
-    value: fn(&Sample) -> f64,
+    value: &'a dyn Fn(&Sample) -> f64,
     color: Color32,
     style: Style,
 }
@@ -149,7 +162,7 @@ fn judging(
     view.unarmed(&painter);
     view.contact(&painter, 4.0);
     for other in shown.others {
-        frame.curve(&painter, view.run, &values, other.value, other.color, other.style);
+        frame.curve(&painter, view.run, &values, |sample| (other.value)(sample), other.color, other.style);
     }
     // What is not judged, for the robot hardly turns, stands back.
     let part = |moving: bool| {
@@ -172,7 +185,14 @@ fn judging(
     if which == 0 {
         view.detection_label(&painter);
     }
-    let line = Line { name: shown.symbol, threshold, otherwise, judged: shown.judged, color: shown.color };
+    let line = Line {
+        name: shown.symbol,
+        threshold,
+        otherwise,
+        judged: shown.judged,
+        color: shown.color,
+        judges: shown.judges,
+    };
     let outcome = view.threshold(ui, &values, &line);
     view.state.held[which] = outcome.moving.then_some(high);
     if let Some(changed) = outcome.changed {

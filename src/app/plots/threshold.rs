@@ -29,6 +29,8 @@ pub struct Line {
     pub judged: Judged,
     /// Colour of what it judges.
     pub color: Color32,
+    /// Whether it judges; one that does not is dashed.
+    pub judges: bool,
 }
 
 /// What a person did with it.
@@ -75,11 +77,11 @@ impl View<'_> {
         let color = if on { line.color } else { line.color.gamma_multiply(0.45) };
         let width = if held || (on && response.hovered()) { 2.6 } else { 1.6 };
         let y = painter.round_to_pixel_center(y);
-        if on {
-            painter.hline(data.x_range(), y, Stroke::new(width, color));
-        } else {
-            let ends = [pos2(data.left(), y), pos2(data.right(), y)];
-            painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, color), 2.0, 5.0));
+        let ends = [pos2(data.left(), y), pos2(data.right(), y)];
+        match (on, line.judges) {
+            (true, true) => drop(painter.hline(data.x_range(), y, Stroke::new(width, color))),
+            (true, false) => painter.extend(Shape::dashed_line(&ends, Stroke::new(width - 0.5, color), 6.0, 4.0)),
+            (false, _) => painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, color), 2.0, 5.0)),
         }
         let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));
