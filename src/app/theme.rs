@@ -61,6 +61,8 @@ pub struct Theme {
     pub constrained: Color32,
     /// What the sensor says.
     pub sensor: Color32,
+    /// What the load cells say.
+    pub force: Color32,
     /// A detection.
     pub detection: Color32,
     /// Robot.
@@ -109,6 +111,7 @@ impl Theme {
             model: color(palette.model),
             constrained: color(palette.constrained),
             sensor: color(palette.sensor),
+            force: color(palette.force),
             detection: color(palette.detection),
             robot: hex(0x7C8896, 0xAEBBC8),
             obstacle: color(palette.stone),

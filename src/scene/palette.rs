@@ -16,6 +16,9 @@ pub struct Palette {
     pub constrained: Color,
     /// What the sensor says.
     pub sensor: Color,
+    /// What the load cells say, and what loads them: Okabe and Ito's reddish purple, darker on white so that a thin line
+    /// can be read.
+    pub force: Color,
     /// A detection.
     pub detection: Color,
     /// Backbones.
@@ -49,6 +52,7 @@ impl Palette {
         model: Color::hex(0x0072B2),
         constrained: Color::hex(0xE69F00),
         sensor: Color::hex(0x009E73),
+        force: Color::hex(0xA94A82),
         detection: Color::hex(0xD55E00),
         steel: Color::hex(0xD5DBE2),
         steel_primary: Color::hex(0xF0F2F5),
@@ -69,6 +73,7 @@ impl Palette {
         model: Color::hex(0x56A9DE),
         constrained: Color::hex(0xF0B03A),
         sensor: Color::hex(0x2BC495),
+        force: Color::hex(0xE295C1),
         detection: Color::hex(0xFF7F3A),
         steel: Color::hex(0xD3DAE2),
         steel_primary: Color::hex(0xF0F3F6),
@@ -100,7 +105,7 @@ mod tests {
                 assert!(palette.ink.contrast(background) > 12.0);
                 assert!(palette.ink_dim.contrast(background) > 4.0);
                 // Graphics, not text: WCAG asks for 3; amber on white cannot reach it and is told by its form and edge.
-                for signal in [palette.model, palette.sensor, palette.detection] {
+                for signal in [palette.model, palette.sensor, palette.force, palette.detection] {
                     assert!(signal.contrast(background) > 2.9, "{signal:?}");
                 }
                 assert!(palette.constrained.contrast(background) > 1.9);

@@ -8,7 +8,6 @@ use super::range::top;
 use super::threshold::Line;
 use crate::app::command::Command;
 use crate::app::notation::{job, number};
-use crate::app::theme::Theme;
 use crate::experiment::scenario::{Threshold, Xi1Rule};
 use crate::experiment::{Method, Sample};
 use egui::{Color32, Ui};
@@ -17,11 +16,6 @@ use egui::{Color32, Ui};
 const FCD: Judged = Judged { method: Method::Fcd, name: "‖c_m − c_s‖", scale: 1e3, unit: "mm", decimals: 2 };
 /// Joint force deviations are shown in mN·m.
 const JFD: Judged = Judged { method: Method::Jfd, name: "Θ", scale: 1e3, unit: "mN·m", decimals: 1 };
-
-/// Colour of what the load cells say: Okabe and Ito's reddish purple, darker on white so that a thin line can be read.
-fn force_color(theme: &Theme) -> Color32 {
-    if theme.dark { Color32::from_rgb(0xE2, 0x95, 0xC1) } else { Color32::from_rgb(0xA9, 0x4A, 0x82) }
-}
 
 /// ‖c_m − c_s‖ with ξ2.
 pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
@@ -52,7 +46,7 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
 /// Θ with both rules of ξ1, and both bounds ε_c.
 pub fn force(ui: &mut Ui, view: &mut View<'_>) {
     let settings = view.run.plan.scenario().detection.clone();
-    let color = force_color(&view.frame.theme);
+    let color = view.frame.theme.force;
     let value = |sample: &Sample| sample.judgement.residual * JFD.scale;
     let dim = view.frame.theme.dim;
     let follows = settings.xi1_rule == Xi1Rule::Bound;

@@ -1,5 +1,6 @@
 //! A run at one instant, as a scene.
 
+mod load;
 mod loci;
 mod robot;
 pub mod track;
@@ -47,6 +48,7 @@ pub fn view(run: &Run, time: f64, options: &ViewOptions) -> Scene {
     let signs = Signs { run, plant: &plant, palette, time, lift: 1.5 * sizes.disk };
     signs.loci(&mut scene);
     signs.axes(&mut scene);
+    load::load(&mut scene, palette, run, &plant.wrench(time), &pose(length as f32));
     if let Some(detection) = run.detection.filter(|detection| detection.time <= time) {
         // The label stands off the side from which the segment bends away.
         let aside =
@@ -151,6 +153,19 @@ mod tests {
         let free = at(&scenario, 7.0);
         assert_eq!((ghosts(&free), count(&free, Shape::Ring)), (0, 0));
         assert!(free.blocks.len() < at(&Scenario::default(), 7.0).blocks.len());
+    }
+
+    #[test]
+    fn a_load_is_an_arrow_that_grows_at_the_tip() {
+        let scenario = crate::experiment::preset::find("load-at-rest").and_then(|p| p.scenario()).expect("preset");
+        let lines = |time| at(&scenario, time).lines.into_iter().filter(|l| l.color == Palette::LIGHT.force).collect();
+        let (before, half, whole): (Vec<_>, Vec<_>, Vec<_>) = (lines(7.0), lines(8.25), lines(9.5));
+        assert!(before.is_empty());
+        let length = |lines: &[crate::scene::Line]| lines[0].path[0].distance(lines[0].path[1]);
+        assert!((length(&whole) / length(&half) - 2.0).abs() < 0.01, "{} {}", length(&half), length(&whole));
+        let tip = at(&scenario, 9.5).tubes[0].path[48];
+        assert!(whole[0].path[1].distance(tip) < 0.001, "it ends where it acts");
+        assert!(at(&scenario, 9.5).labels.iter().any(|label| label.text == "1.00 N"));
     }
 
     #[test]
