@@ -27,10 +27,6 @@ pub fn load(scene: &mut Scene, palette: &Palette, run: &Run, wrench: &Wrench, ti
         for side in [along.any_orthonormal_vector(), -along.any_orthonormal_vector()] {
             arrow(vec![end, end - along * head + side * 0.5 * head]);
         }
-        let across = along.cross(along.any_orthonormal_vector());
-        for side in [across, -across] {
-            arrow(vec![end, end - along * head + side * 0.5 * head]);
-        }
     }
     let (force, moment) = (wrench.force.norm(), wrench.moment.norm() * 1e3);
     let words = [(force, format!("{force:.2} N")), (moment, format!("{moment:.1} mN·m"))];
