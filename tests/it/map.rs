@@ -6,6 +6,8 @@ use centrode::study::Job;
 use centrode::study::map::{MapJob, largest_deviation, largest_epsilon};
 use std::f64::consts::PI;
 
+type Change = fn(&mut Scenario);
+
 /// A scenario without noise, with a beam at a place and a bend.
 fn touching(arc_length: f64, bend: f64) -> Scenario {
     let mut scenario = Scenario::default();
@@ -49,7 +51,7 @@ fn the_map_foretells_the_largest_deviation_of_the_simulation() {
 
 #[test]
 fn so_it_does_for_other_settings() {
-    let vary: [(&str, fn(&mut Scenario)); 12] = [
+    let vary: [(&str, Change); 12] = [
         ("another plane", |s| s.motion.delta = 2.1),
         ("a short filter", |s| s.filter.length = 50),
         ("a long filter", |s| s.filter.length = 1500),
@@ -146,7 +148,7 @@ fn the_map_is_made_of_its_cells_and_may_be_looked_at_before_it_is_done() {
 
 #[test]
 fn odd_motions_make_a_map_all_the_same() {
-    let vary: [fn(&mut Scenario); 6] = [
+    let vary: [Change; 6] = [
         |s| s.motion.theta_end = s.motion.theta_start,
         |s| s.filter.length = 1,
         |s| s.motion.end = 1.0,
