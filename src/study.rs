@@ -5,6 +5,7 @@
 
 pub mod figure;
 pub mod seed;
+pub mod table2;
 
 /// Work in pieces of a few milliseconds.
 pub trait Job {
