@@ -6,6 +6,7 @@
 pub mod figure;
 pub mod map;
 pub mod seed;
+pub mod table2;
 
 /// Work in pieces of a few milliseconds.
 pub trait Job {
