@@ -8,7 +8,7 @@ use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.
 const BESIDE: f32 = 1000.0;
-const ROW: f32 = 27.0;
+const ROW: f32 = 32.0;
 
 /// One column: head, unit, and what stands in it.
 struct Column {
@@ -91,7 +91,7 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
     ui.add_space(2.0);
     ui.add(Label::new(job(below, 12.0, theme.dim)).wrap());
     ui.add_space(8.0);
-    let size = if width < 430.0 { 11.0 } else { 13.0 };
+    let size = if width < 430.0 { 11.0 } else { 13.5 };
     let (head, _) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
     cells(head, |column, right| {
         for (k, (text, color)) in [(column.head, theme.ink), (column.unit, theme.dim)].into_iter().enumerate() {
