@@ -15,6 +15,8 @@ use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, 
 const BESIDE: f32 = 640.0;
 /// Width of the legend there.
 const LEGEND: f32 = 190.0;
+/// Marks stand at least this far apart.
+const CROWDED: f32 = 10.0;
 /// The pointer reads a point this near.
 const REACH: f32 = 28.0;
 
@@ -194,8 +196,13 @@ fn curves(ui: &mut Ui, rect: Rect, figure: &Figure, theme: &Theme) {
                 Style::Dashed => inside.extend(Shape::dashed_line(&line, Stroke::new(1.5, color), 6.0, 4.0)),
                 Style::Triangles | Style::Circles => {
                     let form = if series.style == Style::Circles { Form::Circle } else { Form::Triangle };
-                    for at in line {
-                        legend::mark(&inside, at, form, 1.0, color, theme);
+                    // Marks on top of each other say less than marks apart.
+                    let mut last: Option<Pos2> = None;
+                    for at in line.into_iter().filter(|at| chart.data.contains(*at)) {
+                        if last.is_none_or(|last| last.distance(at) > CROWDED) {
+                            legend::mark(&inside, at, form, 1.0, color, theme);
+                            last = Some(at);
+                        }
                     }
                 }
             }
