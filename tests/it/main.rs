@@ -9,6 +9,7 @@ mod golden;
 mod gpu;
 mod map;
 mod misprints;
+mod paper;
 mod properties;
 #[cfg(feature = "gui-tests")]
 mod render;
