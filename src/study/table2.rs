@@ -196,7 +196,8 @@ impl Table2Job {
     /// # Errors
     /// When the scenario is impossible, has fewer than three disks, or the repeats are not from 1 to [`MAX_REPEATS`].
     pub fn new(base: &Scenario, repeats: usize) -> Result<Self, ScenarioError> {
-        let refusal = |key: &str, value: String, allowed: String| ScenarioError::Value { key: key.into(), value, allowed };
+        let refusal =
+            |key: &str, value: String, allowed: String| ScenarioError::Value { key: key.into(), value, allowed };
         if !(1..=MAX_REPEATS).contains(&repeats) {
             let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
             return Err(refusal("repeats", repeats.to_string(), allowed));
@@ -262,8 +263,7 @@ fn experiment(plan: &Plan, truth: &Truth) -> Row {
     let disk = truth.disk;
     match simulation.detection() {
         Some(detection) => {
-            let outcome =
-                if detection.time >= truth.contact_time { Outcome::Found } else { Outcome::FalseAlarm };
+            let outcome = if detection.time >= truth.contact_time { Outcome::Found } else { Outcome::FalseAlarm };
             let (detection_time, theta_l, location) = (detection.time, detection.theta_l, detection.location);
             Row { disk, outcome, detection_time, theta_l, location }
         }
@@ -303,7 +303,9 @@ mod tests {
     fn the_printed_deviations_follow_from_the_printed_rows() {
         let disks = paper_disks();
         // As many digits as the paper prints.
-        for ((disk, printed), digits) in paper().iter().zip(disks.map(|[_, deviation]| deviation)).zip([1e-4, 1e-8, 1e-4]) {
+        for ((disk, printed), digits) in
+            paper().iter().zip(disks.map(|[_, deviation]| deviation)).zip([1e-4, 1e-8, 1e-4])
+        {
             let error = (disk.location.deviation - printed).abs();
             assert!(error <= 0.5 * digits, "disk {}: {} for {printed}", disk.disk, disk.location.deviation);
         }
