@@ -3,6 +3,8 @@
 use centrode::experiment::preset::find;
 use centrode::experiment::{Plan, Scenario, Simulation, simulate};
 use centrode::model::{Configuration, Constrained, Rate, locate};
+use centrode::study::Job;
+use centrode::study::map::MapJob;
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -38,5 +40,16 @@ fn experiment(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, experiment);
+fn study(c: &mut Criterion) {
+    let scenario = Scenario::default();
+    c.bench_function("map/100 × 100", |b| {
+        b.iter(|| {
+            let mut job = MapJob::new(black_box(&scenario), 100, 100).expect("valid");
+            job.finish();
+            job.map().deviation[5050]
+        });
+    });
+}
+
+criterion_group!(benches, model, experiment, study);
 criterion_main!(benches);

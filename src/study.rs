@@ -4,6 +4,7 @@
 //! terminal can drive it, and whose result may be looked at before it is complete. Same inputs, same bits.
 
 pub mod figure;
+pub mod map;
 pub mod seed;
 pub mod table2;
 

@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`super::App`] applies them, and nothing else does.
 
 use super::control::{Choice, Control};
+use super::stage::Stage;
 use super::state::Tab;
 use crate::experiment::preset::Preset;
 use crate::experiment::scenario::Threshold;
@@ -48,6 +49,15 @@ pub enum Command {
     Fold(&'static str),
     /// Show a tab, where there is room for one only.
     ShowTab(Tab),
+    /// Put something on the stage; a figure brings its preset.
+    Show(Stage),
+    /// Put the contact at an arc length (m), from a bend (rad) on.
+    Touch {
+        /// Arc length, m.
+        arc_length: f64,
+        /// Bend at contact, rad.
+        bend: f64,
+    },
     /// Open or close the sheet of controls.
     ToggleSheet,
     /// Open or close the help.

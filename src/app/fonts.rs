@@ -69,7 +69,7 @@ mod tests {
     fn every_text_can_be_written() {
         let mut texts: Vec<String> = vec!["Θ ‖c_m − c_s‖ ξ₁ ξ₂ ε_c ± × · … – “quoted” ← → ↑ ↓ 0123456789".into()];
         for group in table::GROUPS {
-            texts.push(group.name.into());
+            texts.extend([group.name, group.note].map(String::from));
             for control in group.controls {
                 texts.extend([control.label, control.tip, control.quantity.unit()].map(String::from));
             }

@@ -140,6 +140,13 @@ impl Layout {
         Self { controls, tabbed, sheet: true, ..self }
     }
 
+    /// Where a figure, the table or the map stands: in the place of view, plane and readout; on a phone of the tabs, too.
+    #[must_use]
+    pub fn stage(&self) -> Rect {
+        let tabbed = self.tabbed.filter(|_| self.sheet);
+        [self.plane, self.readout, tabbed].into_iter().flatten().fold(self.view, Rect::union)
+    }
+
     /// Every rectangle there is.
     #[must_use]
     pub fn all(&self) -> Vec<Rect> {

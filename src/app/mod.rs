@@ -19,8 +19,11 @@ pub mod plots;
 pub mod quantity;
 mod refusal;
 mod span;
+pub mod stage;
+mod stages;
 pub mod state;
 pub mod story;
+mod studies;
 pub mod table;
 pub mod theme;
 pub mod viewport;
@@ -31,6 +34,8 @@ use std::collections::BTreeMap;
 
 use egui::{Rect, Ui, vec2};
 
+use crate::experiment::preset::{self, Preset};
+use crate::experiment::scenario::{Contact, Place, Start};
 use crate::experiment::{Run, Scenario};
 use command::Command;
 use control::Control;
@@ -39,8 +44,11 @@ use memo::Memo;
 use panels::chip::Chip;
 use panels::controls::Inputs;
 use plots::PlotState;
+use stage::Stage;
+use stages::StageState;
 use state::{State, Tab};
 use story::Phase;
+use studies::Studies;
 use viewport::ViewState;
 
 /// The longest step of playback, s: after a pause of the whole page the cursor does not leap.
@@ -62,6 +70,8 @@ pub struct App {
     chip: Chip,
     plots: PlotState,
     view: ViewState,
+    studies: Studies,
+    stages: StageState,
     host: Host,
 }
 
@@ -79,6 +89,8 @@ impl App {
             notes: BTreeMap::new(),
             chip: Chip::default(),
             plots: PlotState::default(),
+            studies: Studies::default(),
+            stages: StageState::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             host,
         }
@@ -100,6 +112,12 @@ impl App {
     #[must_use]
     pub fn notes(&self) -> &BTreeMap<&'static str, String> {
         &self.notes
+    }
+
+    /// Whether work for what is on the stage is left to do.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        self.studies.progress().is_some()
     }
 
     /// The page in a line of JSON: state at the cursor, cursor (s), detection of the run (s, m), playing, and a sentence.
@@ -127,6 +145,7 @@ impl App {
             self.apply(ui.ctx(), &mut out);
         }
         self.memo.update(&self.state.scenario);
+        self.study(ui);
         self.page(ui, &mut out);
         self.apply(ui.ctx(), &mut out);
         if self.memo.update(&self.state.scenario) {
@@ -134,6 +153,14 @@ impl App {
             ui.ctx().request_discard("the scenario has changed");
         }
         if self.state.playing {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// A few pieces of the work for what is on the stage.
+    fn study(&mut self, ui: &Ui) {
+        self.studies.update(self.state.stage, self.memo.run().plan.scenario());
+        if ui.ctx().current_pass_index() == 0 && self.studies.work() {
             ui.ctx().request_repaint();
         }
     }
@@ -176,7 +203,7 @@ impl App {
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
-        let Self { state, base, memo, notes, chip, plots, view, host } = self;
+        let Self { state, base, memo, notes, chip, plots, view, studies, stages, host } = self;
         let (state, run) = (&*state, memo.run());
 
         panels::title::title(ui, layout.title, state, layout.sheet, out);
@@ -185,9 +212,16 @@ impl App {
             let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| panels::controls::controls(ui, &inputs, out));
         }
-        layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view));
-        layout::round(ui, layout.view);
-        chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), host.prefers_reduced_motion);
+        let robot = state.stage == Stage::Robot;
+        let covered = layout.stage();
+        if robot {
+            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view));
+            layout::round(ui, layout.view);
+            chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), host.prefers_reduced_motion);
+        } else {
+            let inputs = stages::Inputs { stage: state.stage, run, base: (&state.preset, base) };
+            layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
+        }
         layout::card(ui, "transport", layout.transport, |ui| {
             panels::transport::transport(ui, layout.transport, state, run, out);
         });
@@ -206,12 +240,12 @@ impl App {
             Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| plane::plane(ui, run, cursor, out)),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
-            if let Some(rect) = rect {
+            if let Some(rect) = rect.filter(|rect| robot || !covered.contains_rect(*rect)) {
                 layout::card(ui, "card", rect, |_| ());
                 show(ui, tab, rect, out);
             }
         }
-        if let Some(rect) = layout.tabbed {
+        if let Some(rect) = layout.tabbed.filter(|rect| robot || !covered.contains_rect(*rect)) {
             layout::card(ui, "tabbed", rect, |_| ());
             let (strip, below) = layout::tab_strip(rect);
             panels::tabs::tabs(ui, strip, state.tab, out);
@@ -238,11 +272,22 @@ impl App {
                 Command::SetSpeed(speed) => self.state.speed = speed.clamp(0.1, 4.0),
                 Command::ToggleLoop => self.state.looping = !self.state.looping,
                 Command::Choose(preset) => {
-                    self.state.preset = preset.name.into();
-                    self.base = preset.scenario().unwrap_or_default();
-                    self.load(self.base.clone());
-                    self.state.time = state::lead_in(&self.state.scenario);
+                    if self.state.stage.figure().is_some_and(|number| number.preset() != preset.name) {
+                        self.state.stage = Stage::Robot;
+                    }
+                    self.choose(preset);
                 }
+                Command::Show(stage) => {
+                    self.state.stage = stage;
+                    let preset = stage.figure().and_then(|number| preset::find(number.preset()).ok());
+                    if let Some(preset) = preset.filter(|preset| preset.name != self.state.preset) {
+                        self.choose(preset);
+                    }
+                }
+                Command::Touch { arc_length, bend } => self.change("contact.disk", |s| {
+                    s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend) };
+                    Ok(())
+                }),
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetXi1(xi1) => self.change("detection.xi1", |s| {
                     s.detection.xi1 = xi1;
@@ -282,6 +327,13 @@ impl App {
                 Command::ToggleHelp => self.state.help = !self.state.help,
             }
         }
+    }
+
+    fn choose(&mut self, preset: &Preset) {
+        self.state.preset = preset.name.into();
+        self.base = preset.scenario().unwrap_or_default();
+        self.load(self.base.clone());
+        self.state.time = state::lead_in(&self.state.scenario);
     }
 
     fn toggle_play(&mut self) {

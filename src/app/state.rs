@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use super::stage::Stage;
 use super::table;
 use super::theme::ThemeChoice;
 use crate::experiment::Scenario;
@@ -34,6 +35,8 @@ pub struct State {
     pub theme: ThemeChoice,
     /// Names of the groups of controls that are folded.
     pub folded: BTreeSet<String>,
+    /// What stands on the stage.
+    pub stage: Stage,
     /// What a small screen shows.
     pub tab: Tab,
     /// Whether a small screen shows the controls.
@@ -69,6 +72,7 @@ impl Default for State {
             looping: true,
             theme: ThemeChoice::System,
             folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
+            stage: Stage::Robot,
             tab: Tab::Result,
             sheet: false,
             help: false,

@@ -1,6 +1,6 @@
 //! A scenario, validated once: what follows cannot fail.
 
-use super::scenario::{Load, Place, Scenario, Start, Threshold};
+use super::scenario::{Load, Motion, Place, Scenario, Start, Threshold};
 use super::{motion, text};
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
@@ -90,6 +90,13 @@ pub struct PlannedContact {
 }
 
 impl PlannedContact {
+    /// A beam at `arc_length` (m) that holds beyond `bend` (rad), whichever way the motion goes through it.
+    #[must_use]
+    pub fn beyond(arc_length: f64, bend: f64, motion: &Motion) -> Self {
+        let toward = if bend.abs() > STRAIGHT { bend } else { motion.theta_start - motion.theta_end };
+        Self { arc_length, bend, side: side(toward) }
+    }
+
     /// Whether the beam holds the backbone at this commanded bend (rad).
     #[must_use]
     pub fn holds_at(&self, bend: f64) -> bool {
@@ -321,18 +328,18 @@ fn resolve_contact(scenario: &Scenario) -> Option<PlannedContact> {
         Place::Disk(disk) => *scenario.robot.disks.get(disk as usize - 1)?,
         Place::ArcLength(s) => s,
     };
-    let bend = match scenario.contact.start {
-        Start::Time(time) => bend_from_theta_l(motion::command(&scenario.motion, time).0),
-        Start::Bend(bend) => bend,
-    };
-    let motion = scenario.motion.theta_start - scenario.motion.theta_end;
-    let toward = match scenario.contact.start {
+    let motion = &scenario.motion;
+    Some(match scenario.contact.start {
         // At that time the contact starts: the beam stands where the motion goes, be it toward straight.
-        Start::Time(_) => motion,
-        // Beyond that bend the contact holds, whichever way the motion goes through it.
-        Start::Bend(bend) if bend.abs() > STRAIGHT => bend,
-        Start::Bend(_) => motion,
-    };
-    let side = if toward < 0.0 { -1.0 } else { 1.0 };
-    Some(PlannedContact { arc_length, bend, side })
+        Start::Time(time) => PlannedContact {
+            arc_length,
+            bend: bend_from_theta_l(motion::command(motion, time).0),
+            side: side(motion.theta_start - motion.theta_end),
+        },
+        Start::Bend(bend) => PlannedContact::beyond(arc_length, bend, motion),
+    })
+}
+
+fn side(toward: f64) -> f64 {
+    if toward < 0.0 { -1.0 } else { 1.0 }
 }

@@ -2,8 +2,9 @@
 
 use super::Plan;
 use super::motion::command;
+use super::plan::PlannedContact;
 use crate::model::configuration::bend_from_theta_l;
-use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Vec3, Wrench};
+use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Segment, Vec3, Wrench};
 
 /// The true shape of the backbone.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,14 +102,7 @@ impl<'a> Plant<'a> {
     pub fn joint_forces(&self, configuration: Configuration, wrench: &Wrench) -> Vec3 {
         let segment = self.plan.segment();
         let preload = self.plan.scenario().load_cells.preload;
-        let (part, shape) = match self.plan.contact() {
-            Some(contact) if contact.holds_at(configuration.bend()) => {
-                let share = contact.arc_length / segment.length;
-                let upper = segment.shortened(segment.length - contact.arc_length);
-                (upper, configuration.with_bend(configuration.bend() - contact.bend * share))
-            }
-            _ => (*segment, configuration),
-        };
+        let (part, shape) = moved_part(segment, self.plan.contact(), configuration);
         if part.shortest_backbone(shape.bend()) <= 0.0 {
             return Vec3::repeat(f64::NAN);
         }
@@ -119,5 +113,23 @@ impl<'a> Plant<'a> {
             load = load.minus(&jacobian.transposed_times(wrench));
         }
         part.forces_from_load(&shape, &load).add_scalar(preload)
+    }
+}
+
+/// The part of a segment that moves in a commanded configuration, and that part's own shape: all of it, or what is
+/// above the beam.
+#[must_use]
+pub fn moved_part(
+    segment: &Segment,
+    contact: Option<&PlannedContact>,
+    configuration: Configuration,
+) -> (Segment, Configuration) {
+    match contact {
+        Some(contact) if contact.holds_at(configuration.bend()) => {
+            let share = contact.arc_length / segment.length;
+            let upper = segment.shortened(segment.length - contact.arc_length);
+            (upper, configuration.with_bend(configuration.bend() - contact.bend * share))
+        }
+        _ => (*segment, configuration),
     }
 }

@@ -30,6 +30,11 @@ pub const PRESETS: &[Preset] = presets![
     "gimbal-lock",
     "letting-go",
     "load-at-rest",
+    "figure-3",
+    "figure-4",
+    "figure-6",
+    "figure-7",
+    "figure-8",
 ];
 
 impl Preset {

@@ -22,6 +22,7 @@
 pub mod arc;
 pub mod camera;
 pub mod color;
+pub mod colormap;
 pub mod palette;
 mod primitives;
 mod studio;

@@ -1,4 +1,20 @@
 //! The paper's figures, as data: the command draws them to files, the page to the screen.
+//!
+//! A `_` in a name makes the next character a subscript, as in `θ_L`. Reading order: the types here, `job` (which
+//! figure, and the work it takes), then one file per figure: `bound` (3), `centrodes` (4), `residuals` (6),
+//! `bend` (7), `deviations` (8); `plans`, `thin` and `words` help them.
+
+mod bend;
+mod bound;
+mod centrodes;
+mod deviations;
+mod job;
+mod plans;
+mod residuals;
+mod thin;
+mod words;
+
+pub use job::{FigureJob, Number, UnknownFigure};
 
 /// A figure: curves, marks and words. Numbers in SI; [`Axis`] says how they are shown.
 #[derive(Debug, Clone, PartialEq)]

@@ -7,6 +7,7 @@ mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
+mod map;
 mod misprints;
 mod properties;
 #[cfg(feature = "gui-tests")]

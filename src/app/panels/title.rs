@@ -1,9 +1,12 @@
 //! The title bar: name, presets, theme, help.
 
-use egui::{Align2, CursorIcon, Popup, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{
+    Align2, CursorIcon, Popup, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
+};
 
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::stage::Stage;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::icon::{self, Icon, Look};
@@ -56,9 +59,54 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
         }
     }
 
-    let room = (right.x + 10.0 - left.x).clamp(80.0, 230.0);
+    let side = if narrow { 78.0 } else { 100.0 };
+    let room = (right.x + 4.0 - side - left.x).clamp(72.0, 230.0);
     let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
     presets(ui, place, state, out);
+    let beside = Rect::from_min_size(place.right_top() + vec2(6.0, 0.0), vec2(side, place.height()));
+    stages(ui, beside, state.stage, out);
+}
+
+/// What stands on the stage, and what else could.
+fn stages(ui: &mut Ui, rect: Rect, stage: Stage, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let response = combo(ui, rect, "Show", stage.name(), &theme);
+    let screen = ui.ctx().content_rect();
+    let width = (screen.width() - 40.0).min(420.0);
+    Popup::menu(&response).accessible_name("Show").width(width).show(|ui| {
+        ui.set_width(width);
+        ui.spacing_mut().item_spacing.y = 2.0;
+        for other in Stage::ALL {
+            if item(ui, other.name(), other.summary(), other == stage, &theme) {
+                out.push(Command::Show(other));
+                ui.close();
+            }
+        }
+    });
+    if !Popup::is_any_open(ui.ctx()) {
+        response.on_hover_text(stage.summary());
+    }
+}
+
+/// A button with a text that opens a menu.
+fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Response {
+    let response =
+        ui.interact(rect, ui.make_persistent_id(label), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, ui.is_enabled(), label));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(title));
+    let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
+    let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
+    let edge = if response.has_focus() { theme.accent } else { theme.faint };
+    ui.painter().rect(rect, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
+    ui.painter_at(rect.with_max_x(rect.right() - 22.0)).text(
+        rect.left_center() + vec2(10.0, 0.0),
+        Align2::LEFT_CENTER,
+        title,
+        fonts::strong(13.0),
+        theme.ink,
+    );
+    icon::chevron(ui.painter(), rect.right_center() - vec2(14.0, 0.0), 1.0, theme.dim);
+    response
 }
 
 /// The mark: an arc and the point it turns about.
@@ -75,23 +123,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let chosen = state.preset();
     let title = name(chosen);
-    let response =
-        ui.interact(rect, ui.make_persistent_id("preset"), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
-    response.widget_info(|| WidgetInfo::labeled(Role::ComboBox, ui.is_enabled(), "Preset"));
-    ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(title.as_str()));
-    let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
-    let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
-    ui.painter().rect(rect, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
-    let word = rect.left_center() + vec2(12.0, 0.0);
-    ui.painter_at(rect.with_max_x(rect.right() - 24.0)).text(
-        word,
-        Align2::LEFT_CENTER,
-        &title,
-        fonts::strong(13.0),
-        theme.ink,
-    );
-    icon::chevron(ui.painter(), rect.right_center() - vec2(16.0, 0.0), 1.0, theme.dim);
+    let response = combo(ui, rect, "Preset", &title, &theme);
 
     let screen = ui.ctx().content_rect();
     let width = (screen.width() - 40.0).min(420.0);
@@ -101,7 +133,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
             ui.set_width(width);
             ui.spacing_mut().item_spacing.y = 2.0;
             for preset in PRESETS {
-                if item(ui, preset, std::ptr::eq(preset, chosen), &theme) {
+                if item(ui, &name(preset), preset.summary(), std::ptr::eq(preset, chosen), &theme) {
                     out.push(Command::Choose(preset));
                     ui.close();
                 }
@@ -113,18 +145,17 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     }
 }
 
-/// A preset with what it shows; returns whether it was clicked.
-fn item(ui: &mut Ui, preset: &Preset, chosen: bool, theme: &Theme) -> bool {
+/// A choice with what it shows; returns whether it was clicked.
+fn item(ui: &mut Ui, title: &str, summary: &str, chosen: bool, theme: &Theme) -> bool {
     let mut job = egui::text::LayoutJob::default();
     job.wrap.max_width = ui.available_width() - 20.0;
     let format = |font, color| egui::TextFormat { font_id: font, color, ..Default::default() };
-    let title = name(preset);
-    job.append(&title, 0.0, format(fonts::strong(13.0), if chosen { theme.accent } else { theme.ink }));
-    job.append(&format!("\n{}", preset.summary()), 0.0, format(fonts::regular(12.0), theme.dim));
+    job.append(title, 0.0, format(fonts::strong(13.0), if chosen { theme.accent } else { theme.ink }));
+    job.append(&format!("\n{}", summary), 0.0, format(fonts::regular(12.0), theme.dim));
     let galley = ui.painter().layout_job(job);
     let size = vec2(ui.available_width(), galley.size().y + 12.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, ui.is_enabled(), chosen, &title));
+    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, ui.is_enabled(), chosen, title));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }

@@ -42,8 +42,9 @@ pub const CELL_CHOICES: &[Choice] = &[Choice {
 }];
 
 /// Why a preload matters to one bound and not to the other.
-pub const PRELOAD_NOTE: &str = "A preload pulls on all three backbones alike, and J_qψᵀ(1, 1, 1) = 0: an error common to the cells cancels \
-    in it, so ε_c does not know the preload. Errors that differ leave a part of it, so the bound for independent errors grows with it.";
+pub const PRELOAD_NOTE: &str = "A preload pulls on all three backbones alike, and equal forces bend nothing: an error \
+    common to the cells cancels in it, so ε_c does not know the preload. Cells that err apart leave a part of it, so the \
+    bound for independent errors grows with it.";
 
 /// The wrench on the end disk.
 pub const LOAD: &[Control] = &[

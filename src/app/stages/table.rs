@@ -1,0 +1,129 @@
+//! Table II twice: the paper's, and the simulated one.
+
+use crate::app::fonts;
+use crate::app::notation::{job, number};
+use crate::app::theme::Theme;
+use crate::study::table2::{Disk, Statistic, Table2};
+use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
+
+/// From this width on both stand side by side.
+const BESIDE: f32 = 1000.0;
+const ROW: f32 = 27.0;
+
+/// One column: head, unit, and what stands in it.
+struct Column {
+    head: &'static str,
+    unit: &'static str,
+    /// Part of the table's width.
+    share: f32,
+    cell: fn(&Disk) -> String,
+}
+
+fn both(value: &Statistic, scale: f64, decimals: usize) -> String {
+    match (value.mean.is_nan(), value.deviation.is_nan()) {
+        (true, _) => "–".into(),
+        (false, true) => number(value.mean * scale, decimals),
+        _ => format!("{} ± {}", number(value.mean * scale, decimals), number(value.deviation * scale, decimals)),
+    }
+}
+
+const COLUMNS: [Column; 6] = [
+    Column {
+        head: "Disk",
+        unit: "s_c, mm",
+        share: 0.15,
+        cell: |d| format!("{}   {}", d.disk, number(d.arc_length * 1e3, 1)),
+    },
+    Column { head: "Found", unit: "of all", share: 0.14, cell: |d| format!("{} / {}", d.found, d.repeats) },
+    Column { head: "Detected", unit: "s", share: 0.21, cell: |d| both(&d.detection_time, 1.0, 3) },
+    Column { head: "θ_L there", unit: "°", share: 0.18, cell: |d| both(&d.theta_l, 180.0 / std::f64::consts::PI, 1) },
+    Column { head: "Estimate", unit: "mm", share: 0.18, cell: |d| both(&d.location, 1e3, 1) },
+    Column {
+        head: "Bias",
+        unit: "mm",
+        share: 0.14,
+        cell: |d| {
+            let text = number(d.bias * 1e3, 1);
+            if d.bias > 0.0 { format!("+{text}") } else { text }
+        },
+    },
+];
+
+/// Shows both tables.
+pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2) {
+    let theme = Theme::of(ui);
+    let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("table"));
+    ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let paper = ("The paper's experiment", "Means and standard deviations of the rows it prints", &shown.paper);
+        let ours = (
+            "Simulated by Centrode",
+            "This scenario, with contact as in the presets disk-1, bench and disk-3",
+            &shown.simulated,
+        );
+        if rect.width() > BESIDE {
+            ui.horizontal_top(|ui| {
+                let width = 0.5 * (ui.available_width() - 40.0);
+                for (k, part) in [paper, ours].into_iter().enumerate() {
+                    ui.allocate_ui_with_layout(vec2(width, 0.0), egui::Layout::top_down(Align::Min), |ui| {
+                        block(ui, part, width, &theme);
+                    });
+                    if k == 0 {
+                        ui.add_space(32.0);
+                    }
+                }
+            });
+        } else {
+            for part in [paper, ours] {
+                block(ui, part, ui.available_width(), &theme);
+                ui.add_space(14.0);
+            }
+        }
+        ui.add_space(12.0);
+        let said = "± is the standard deviation over repeats. The paper does not say when contact began nor in how many repeats it \
+            was missed: each of its rows counts as found. The simulation holds the part below the beam still; the real segment buckled.";
+        ui.add(Label::new(job(said, 12.0, theme.dim)).wrap());
+    });
+}
+
+fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f32, theme: &Theme) {
+    ui.add(Label::new(egui::RichText::new(title).font(fonts::strong(15.0)).color(theme.ink)));
+    ui.add_space(2.0);
+    ui.add(Label::new(job(below, 12.0, theme.dim)).wrap());
+    ui.add_space(8.0);
+    let size = if width < 430.0 { 11.0 } else { 13.0 };
+    let (head, _) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
+    cells(head, |column, right| {
+        for (k, (text, color)) in [(column.head, theme.ink), (column.unit, theme.dim)].into_iter().enumerate() {
+            let galley = ui.painter().layout_job(job(text, size - 1.0, color));
+            let at = egui::pos2(right - galley.size().x, head.top() + 2.0 + 16.0 * k as f32);
+            ui.painter().galley(at, galley, color);
+        }
+    });
+    for disk in disks {
+        let (row, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+        ui.painter().hline(row.x_range(), row.top(), egui::Stroke::new(1.0, theme.faint));
+        let mut words = format!("{title}, disk {}", disk.disk);
+        cells(row, |column, right| {
+            let text = (column.cell)(disk);
+            if column.head != "Disk" {
+                words.push_str(&format!("; {} {text} {}", column.head.replace('_', ""), column.unit));
+            }
+            let galley = ui.painter().layout_no_wrap(text, egui::FontId::proportional(size), theme.ink);
+            let at = egui::pos2(right - galley.size().x, row.center().y - 0.5 * galley.size().y);
+            ui.painter().galley(at, galley, theme.ink);
+        });
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
+    }
+    let (end, _) = ui.allocate_exact_size(vec2(width, 1.0), Sense::hover());
+    ui.painter().hline(end.x_range(), end.top(), egui::Stroke::new(1.0, theme.faint));
+}
+
+/// Calls `cell` with each column and its right edge.
+fn cells(row: Rect, mut cell: impl FnMut(&Column, f32)) {
+    let mut right = row.left();
+    for column in &COLUMNS {
+        right += column.share * row.width();
+        cell(column, right - 4.0);
+    }
+}
