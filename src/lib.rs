@@ -17,6 +17,9 @@
 //! | detection by fixed centrode deviation | 19 | [`experiment::detector::Detector`] |
 //! | constrained segment and its centrode | 20–23 | [`model::Constrained`] |
 //! | location of the contact | 24 | [`model::locate`] |
+//! | Figures 3, 4, 6, 7, 8 | | [`study::figure`] |
+//! | Table II | | [`study::table2`] |
+//! | what can be seen at all | 16, 19 | [`study::map`] |
 //!
 //! Read [`model`], then [`experiment`], then [`study`] and [`scene`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
 //! `tests/it/misprints.rs` shows it.

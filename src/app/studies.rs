@@ -2,7 +2,7 @@
 
 use super::stage::Stage;
 use crate::experiment::Scenario;
-use crate::experiment::scenario::Contact;
+use crate::experiment::scenario::{Contact, Place};
 use crate::study::figure::{Figure, FigureJob};
 use crate::study::map::{Map, MapJob};
 use crate::study::table2::{Table2, Table2Job};
@@ -86,7 +86,7 @@ impl Studies {
         let mut scenario = scenario.clone();
         if matches!(stage, Stage::Table2 | Stage::Map) {
             // They put in contacts of their own.
-            scenario.contact = Contact::default();
+            scenario.contact = Contact { place: Place::Nowhere, ..Contact::default() };
         }
         if self.inputs.as_ref().is_some_and(|(was, inputs)| *was == stage && *inputs == scenario) {
             return;
@@ -165,7 +165,7 @@ mod tests {
             assert_eq!(studies.progress(), None);
         }
         let before = studies.found().map(|(_, version)| version);
-        scenario.contact.place = crate::experiment::scenario::Place::Nowhere;
+        scenario.contact.place = Place::Nowhere;
         studies.update(Stage::Map, &scenario);
         assert!(!studies.work(), "the map does not depend on the contact");
         scenario.filter.length = 100;
@@ -179,7 +179,7 @@ mod tests {
         let mut studies = Studies::default();
         let mut scenario = Scenario::default();
         scenario.robot.disks = vec![0.01];
-        scenario.contact.place = crate::experiment::scenario::Place::Disk(1);
+        scenario.contact.place = Place::Disk(1);
         studies.update(Stage::Table2, &scenario);
         assert!(!studies.work());
         assert!(studies.refused().is_some_and(|why| why.contains("robot.disks")), "{:?}", studies.refused());

@@ -19,7 +19,7 @@ pub fn colormap(share: f64) -> Color {
 /// A shade for one of a family of lines by its share from 0 to 1, which stands out from a dark or a light background.
 #[must_use]
 pub fn member(share: f64, dark: bool) -> Color {
-    let [low, high] = if dark { [0.35, 1.0] } else { [0.0, 0.78] };
+    let [low, high] = if dark { [0.35, 1.0] } else { [0.0, 0.7] };
     colormap(low + (high - low) * share)
 }
 

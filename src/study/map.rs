@@ -19,6 +19,9 @@ pub const SIDES: (usize, usize) = (2, 1000);
 /// Bends in contact at which the joint forces are looked at; what they show grows with the bend.
 const FORCE_STEPS: usize = 12;
 
+/// Part of the sharpest bend up to which forces are looked at: at the bend itself they are not defined.
+const NEARLY: f64 = 1.0 - 1e-9;
+
 /// The map of a scenario's motion, without noise. Its own contact does not matter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Map {
@@ -127,13 +130,25 @@ pub fn largest_epsilon(plan: &Plan, contact: &PlannedContact) -> f64 {
     let scenario = plan.scenario();
     let motion = &scenario.motion;
     let bend_at = |time: f64| bend_from_theta_l(crate::experiment::motion::command(motion, time).0);
-    let armed = bend_at(scenario.detection.armed_from);
-    let last = bend_at(motion.end);
+    if scenario.detection.armed_from > motion.end {
+        return f64::NAN;
+    }
+    // The motion is monotone: from arming on it passes all bends between these two. Of them count those in contact, up
+    // to where the part above the beam would leave a backbone no length.
+    let (armed, last) = (bend_at(scenario.detection.armed_from), bend_at(motion.end));
+    let segment = plan.segment();
+    let lower = contact.bend * (contact.arc_length / segment.length);
+    let sharpest = (segment.length - contact.arc_length) / segment.pitch_radius * NEARLY;
+    let (mut low, mut high) = ((lower - sharpest).max(armed.min(last)), (lower + sharpest).min(armed.max(last)));
+    if contact.side > 0.0 {
+        low = low.max(contact.bend)
+    } else {
+        high = high.min(contact.bend)
+    }
     let plane = Configuration::new(0.0, motion.delta);
-    // The motion is monotone: from arming on it passes all bends between these two.
-    let judged = (0..=FORCE_STEPS).map(|k| armed + (last - armed) * (k as f64 / FORCE_STEPS as f64));
-    let held = judged.filter(|&bend| contact.holds_at(bend) && scenario.detection.armed_from <= motion.end);
-    held.filter_map(|bend| shown_epsilon(plan.segment(), contact, plane.with_bend(bend))).fold(f64::NAN, f64::max)
+    let bends = (0..=FORCE_STEPS).map(|k| low + (high - low) * (k as f64 / FORCE_STEPS as f64));
+    let held = bends.filter(|&bend| low <= high && contact.holds_at(bend));
+    held.filter_map(|bend| shown_epsilon(segment, contact, plane.with_bend(bend))).fold(f64::NAN, f64::max)
 }
 
 /// The ε_τ up to which one configuration shows the contact; none where its forces are not defined.

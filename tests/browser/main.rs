@@ -20,4 +20,5 @@ mod core;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
+mod paper;
 mod start;

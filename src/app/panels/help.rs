@@ -28,8 +28,13 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
     (
         "What the plots show",
-        "Above, the distance between model and sensor with its threshold ξ2; below it the joint force deviation Θ with ξ1 and the bound ε_c that load cell errors alone can reach; then the bend. \
+        "Above, the distance between model and sensor with its threshold ξ2; below it the joint force deviation Θ with ξ1, a constant or a multiple of the bound ε_c that load cell errors alone can reach; then the bend. \
          Thresholds can be dragged. Before arming no alarm is raised. A long filter is calm but late, a short one early but restless: try N.",
+    ),
+    (
+        "The paper on the page",
+        "The menu beside the presets puts a figure of the paper, its Table II, or the map on the stage, worked out anew as controls move. Each says that it is simulated here; only the \
+         columns headed as the paper's are its measurements. The map shows, for each place and bend at contact, the largest thresholds that still find it; a click puts the contact there.",
     ),
     (
         "How to try things",

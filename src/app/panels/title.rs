@@ -28,8 +28,9 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
     let mut left = rect.left_center() + vec2(if narrow { 8.0 } else { 10.0 }, 0.0);
     mark(ui, left + vec2(9.0, 0.0), &theme);
     left.x += 26.0;
-    let word = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink);
-    left.x = word.right() + 14.0;
+    if rect.width() > 460.0 {
+        left.x = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink).right() + 14.0;
+    }
     if rect.width() > 980.0 {
         let said = "contact detection on a continuum robot";
         left.x = text::paint(ui, left, Align2::LEFT_CENTER, said, fonts::regular(13.0), theme.dim).right() + 20.0;
@@ -59,7 +60,7 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
         }
     }
 
-    let side = if narrow { 78.0 } else { 100.0 };
+    let side = if narrow { 90.0 } else { 100.0 };
     let room = (right.x + 4.0 - side - left.x).clamp(72.0, 230.0);
     let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
     presets(ui, place, state, out);

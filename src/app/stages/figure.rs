@@ -6,6 +6,7 @@ use crate::app::legend::{self, Form};
 use crate::app::notation::{self, job, number};
 use crate::app::plots::Steps;
 use crate::app::theme::Theme;
+use crate::app::widgets::text::rich;
 use crate::scene::colormap::member;
 use crate::study::figure::{Axis, Figure, Mark, Role, Style};
 use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
@@ -14,6 +15,8 @@ use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, 
 const BESIDE: f32 = 640.0;
 /// Width of the legend there.
 const LEGEND: f32 = 190.0;
+/// Marks stand at least this far apart.
+const CROWDED: f32 = 10.0;
 /// The pointer reads a point this near.
 const REACH: f32 = 28.0;
 
@@ -46,7 +49,7 @@ fn strong(text: &str, size: f32, color: Color32, width: f32) -> egui::text::Layo
 
 /// Caption and command, at the foot; returns where they begin.
 fn words(ui: &mut Ui, rect: Rect, figure: &Figure, inputs: &Inputs<'_>, theme: &Theme) -> f32 {
-    let mut caption = job(&figure.caption, 11.5, theme.dim);
+    let mut caption = rich(&figure.caption, 11.5, theme.dim);
     caption.wrap.max_width = rect.width();
     let command = command(inputs);
     let mut line = job(&command, 11.5, theme.ink);
@@ -100,7 +103,7 @@ fn entries(figure: &Figure, theme: &Theme) -> Vec<Entry> {
 fn beside(ui: &Ui, at: Pos2, entries: &[Entry], theme: &Theme) {
     let mut y = at.y;
     for entry in entries {
-        let mut text = job(&entry.text, 12.0, theme.ink);
+        let mut text = rich(&entry.text, 12.0, theme.ink);
         text.wrap.max_width = LEGEND - 46.0;
         let galley = ui.painter().layout_job(text);
         swatch(ui.painter(), pos2(at.x + 12.0, y + 8.0), entry, theme);
@@ -114,7 +117,7 @@ fn beside(ui: &Ui, at: Pos2, entries: &[Entry], theme: &Theme) {
 fn above(ui: &Ui, rect: Rect, entries: &[Entry], theme: &Theme) -> f32 {
     let mut at = rect.min;
     for entry in entries {
-        let galley = ui.painter().layout_job(job(&entry.text, 11.5, theme.ink));
+        let galley = ui.painter().layout_job(rich(&entry.text, 11.5, theme.ink));
         let width = galley.size().x + 40.0;
         if at.x + width > rect.right() && at.x > rect.left() {
             at = pos2(rect.left(), at.y + 17.0);
@@ -193,8 +196,13 @@ fn curves(ui: &mut Ui, rect: Rect, figure: &Figure, theme: &Theme) {
                 Style::Dashed => inside.extend(Shape::dashed_line(&line, Stroke::new(1.5, color), 6.0, 4.0)),
                 Style::Triangles | Style::Circles => {
                     let form = if series.style == Style::Circles { Form::Circle } else { Form::Triangle };
-                    for at in line {
-                        legend::mark(&inside, at, form, 1.0, color, theme);
+                    // Marks on top of each other say less than marks apart.
+                    let mut last: Option<Pos2> = None;
+                    for at in line.into_iter().filter(|at| chart.data.contains(*at)) {
+                        if last.is_none_or(|last| last.distance(at) > CROWDED) {
+                            legend::mark(&inside, at, form, 1.0, color, theme);
+                            last = Some(at);
+                        }
                     }
                 }
             }

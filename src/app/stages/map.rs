@@ -19,8 +19,8 @@ use egui::{
 const BESIDE: f32 = 640.0;
 /// Width of a colour bar with its labels.
 const BAR: f32 = 52.0;
-/// Shares are shown up to this: more cannot be told apart from "always".
-const MOST: f64 = 0.98;
+/// Errors are shown in colour up to this: load cells are not worse.
+const MOST: f64 = 0.5;
 
 /// Both maps as images, kept while they stay the same.
 pub struct Picture {
@@ -76,7 +76,7 @@ pub fn map(
     words.wrap.max_width = rect.width();
     let mut hint = job(
         "Without noise. A contact below the line is missed; a click, or a drag, puts the contact there. The second map asks that Θ \
-         exceeds ε_c whatever error within ±ε_τ the cells share.",
+         exceeds ε_c whatever error within ±ε_τ the cells share; beyond 50 % it has one colour.",
         11.5,
         theme.dim,
     );
@@ -171,18 +171,14 @@ fn one(
     bar(&painter, chart.data, kind, *top, &theme);
 
     let scenario = inputs.run.plan.scenario();
+    let mut names = Vec::new();
     for (k, &disk) in scenario.robot.disks.iter().enumerate() {
         let at = chart.y.at(disk * 1e3);
         painter.hline(chart.data.right() - 7.0..=chart.data.right(), at, Stroke::new(1.5, Color32::WHITE));
         if chart.data.height() > 120.0 {
-            let at = pos2(chart.data.right() - 10.0, at);
-            painter.text(
-                at,
-                Align2::RIGHT_CENTER,
-                format!("disk {}", k + 1),
-                FontId::proportional(10.0),
-                Color32::WHITE,
-            );
+            let name = painter.layout_no_wrap(format!("disk {}", k + 1), FontId::proportional(10.0), Color32::WHITE);
+            let place = Align2::RIGHT_CENTER.anchor_size(pos2(chart.data.right() - 11.0, at), name.size());
+            names.push((place, name));
         }
     }
 
@@ -216,6 +212,10 @@ fn one(
             inside.hline(chart.data.x_range(), at.y, Stroke::new(width, color));
         }
         inside.circle(at, 5.5, theme.detection, Stroke::new(1.8, Color32::WHITE));
+    }
+    for (place, name) in names {
+        painter.rect_filled(place.expand2(vec2(3.0, 1.0)), 3.0, Color32::from_black_alpha(150));
+        painter.galley(place.min, name, Color32::WHITE);
     }
     touch(ui, &chart, kind, map, out, &theme);
 }

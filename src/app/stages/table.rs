@@ -8,7 +8,7 @@ use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.
 const BESIDE: f32 = 1000.0;
-const ROW: f32 = 27.0;
+const ROW: f32 = 32.0;
 
 /// One column: head, unit, and what stands in it.
 struct Column {
@@ -91,7 +91,8 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
     ui.add_space(2.0);
     ui.add(Label::new(job(below, 12.0, theme.dim)).wrap());
     ui.add_space(8.0);
-    let size = if width < 430.0 { 11.0 } else { 13.0 };
+    let narrow = width < 430.0;
+    let size = if narrow { 12.0 } else { 13.5 };
     let (head, _) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
     cells(head, |column, right| {
         for (k, (text, color)) in [(column.head, theme.ink), (column.unit, theme.dim)].into_iter().enumerate() {
@@ -101,7 +102,7 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
         }
     });
     for disk in disks {
-        let (row, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::hover());
+        let (row, response) = ui.allocate_exact_size(vec2(width, if narrow { 1.3 * ROW } else { ROW }), Sense::hover());
         ui.painter().hline(row.x_range(), row.top(), egui::Stroke::new(1.0, theme.faint));
         let mut words = format!("{title}, disk {}", disk.disk);
         cells(row, |column, right| {
@@ -109,9 +110,19 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
             if column.head != "Disk" {
                 words.push_str(&format!("; {} {text} {}", column.head.replace('_', ""), column.unit));
             }
-            let galley = ui.painter().layout_no_wrap(text, egui::FontId::proportional(size), theme.ink);
-            let at = egui::pos2(right - galley.size().x, row.center().y - 0.5 * galley.size().y);
-            ui.painter().galley(at, galley, theme.ink);
+            // On a phone the deviation stands below the mean.
+            let (mean, deviation) = match text.split_once(" ± ") {
+                Some((mean, deviation)) if narrow => (mean.to_owned(), Some(format!("± {deviation}"))),
+                _ => (text, None),
+            };
+            let lift = if deviation.is_some() { 7.0 } else { 0.0 };
+            let lines = [(Some(mean), size, theme.ink, -lift), (deviation, size - 1.5, theme.dim, lift + 1.0)];
+            for (text, size, color, down) in lines {
+                let Some(text) = text else { continue };
+                let galley = ui.painter().layout_no_wrap(text, egui::FontId::proportional(size), color);
+                let at = egui::pos2(right - galley.size().x, row.center().y - 0.5 * galley.size().y + down);
+                ui.painter().galley(at, galley, color);
+            }
         });
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &words));
     }

@@ -134,8 +134,8 @@ pub const LOAD: &[Control] = &[
 pub const XI1_CHOICES: &[Choice] = &[Choice {
     key: "detection.xi1_rule",
     label: "ξ1 is",
-    tip: "One constant, or k times the bound ε_c of the shape commanded: both are drawn, the one that judges is solid.",
-    options: &["constant", "k·ε_c(θL)"],
+    tip: "One constant, or following the shape: k times the bound ε_c of the shape commanded: both are drawn, the one that judges is solid.",
+    options: &["constant", "follows shape"],
     get: |s| usize::from(s.detection.xi1_rule == Xi1Rule::Bound),
     set: |s, i| s.detection.xi1_rule = if i == 0 { Xi1Rule::Constant } else { Xi1Rule::Bound },
     copy: |from, to| to.detection.xi1_rule = from.detection.xi1_rule,
