@@ -2,9 +2,11 @@
 //!
 //! Exit code 0 for work done, 2 for bad input with one line on standard error. A closed pipe ends it quietly.
 
+mod map;
 mod model;
 mod output;
 mod run;
+mod table2;
 
 use crate::experiment::preset::{self, PRESETS};
 use crate::experiment::text::{DEFAULT_TOML, Draft};
@@ -31,6 +33,10 @@ enum Command {
     Model(model::ModelArgs),
     /// Simulate a scenario and report threshold crossings and the estimated contact location.
     Run(run::RunArgs),
+    /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
+    Table2(table2::Table2Args),
+    /// Map what can be seen at all: the largest threshold and cell error for each place and bend at contact.
+    Map(map::MapArgs),
     /// List the presets.
     Presets,
     /// Print the default scenario as TOML, every key commented.
@@ -56,8 +62,17 @@ const MAX_FILE: u64 = 1 << 20;
 
 impl ScenarioArgs {
     fn scenario(&self) -> Result<Scenario, Failure> {
+        self.resolved(None)
+    }
+
+    /// The scenario, from a preset where neither file nor preset is named.
+    fn scenario_or(&self, preset: &str) -> Result<Scenario, Failure> {
+        self.resolved(Some(preset))
+    }
+
+    fn resolved(&self, otherwise: Option<&str>) -> Result<Scenario, Failure> {
         let named = |place: String| move |error: ScenarioError| Failure::Input(format!("{place}: {error}"));
-        let (place, mut draft) = match (&self.file, &self.preset) {
+        let (place, mut draft) = match (&self.file, self.preset.as_deref().or(otherwise)) {
             (Some(path), _) => {
                 let unreadable = |error| Failure::Input(format!("cannot read {}: {error}", path.display()));
                 let mut bytes = Vec::new();
@@ -77,7 +92,7 @@ impl ScenarioArgs {
             }
             (None, Some(name)) => {
                 let preset = preset::find(name).map_err(named("--preset".into()))?;
-                (format!("preset {name}"), preset.draft().map_err(named(name.clone()))?)
+                (format!("preset {name}"), preset.draft().map_err(named(name.into()))?)
             }
             (None, None) => ("scenario".into(), Draft::default()),
         };
@@ -100,8 +115,10 @@ pub fn main() -> ExitCode {
             return ExitCode::SUCCESS;
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            return Failure::Input("what to do is missing: model, run, presets or scenario (see --help)".into())
-                .report();
+            return Failure::Input(
+                "what to do is missing: model, run, table2, map, presets or scenario (see --help)".into(),
+            )
+            .report();
         }
         Err(error) => return Failure::Input(one_line(&error.to_string())).report(),
     };
@@ -109,6 +126,8 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Model(args) => args.execute(&mut out),
         Command::Run(args) => args.execute(&mut out),
+        Command::Table2(args) => args.execute(&mut out),
+        Command::Map(args) => args.execute(&mut out),
         Command::Presets => presets(&mut out),
         Command::Scenario => out.write_all(DEFAULT_TOML.as_bytes()).map_err(Failure::Output),
     };

@@ -42,6 +42,36 @@ pub fn json(out: &mut impl Write, value: &impl Serialize) -> Result<(), Failure>
     Ok(writeln!(out)?)
 }
 
+/// Writes one record of a CSV file.
+pub fn write_record(
+    csv: &mut csv::Writer<NewFile>,
+    fields: impl IntoIterator<Item = impl AsRef<[u8]>>,
+) -> Result<(), Failure> {
+    for field in fields {
+        csv.write_field(field).map_err(|error| blame(csv, error))?;
+    }
+    csv.write_record(None::<&[u8]>).map_err(|error| blame(csv, error))
+}
+
+/// Completes a CSV file.
+pub fn finish_csv(csv: csv::Writer<NewFile>) -> Result<(), Failure> {
+    csv.into_inner().map_err(|error| Failure::Input(format!("cannot write the CSV: {error}")))?.finish()
+}
+
+/// A number as it is read back; what is not defined stays empty.
+pub fn cell(value: f64) -> String {
+    if value.is_nan() { String::new() } else { value.to_string() }
+}
+
+fn blame(csv: &csv::Writer<NewFile>, error: csv::Error) -> Failure {
+    let error = match error.into_kind() {
+        csv::ErrorKind::Io(error) => error,
+        // Only writing can fail here: every record has as many fields as the header.
+        other => io::Error::other(format!("{other:?}")),
+    };
+    csv.get_ref().blame(&error)
+}
+
 /// A file that appears under its name only when it is complete.
 #[derive(Debug)]
 pub struct NewFile {

@@ -1,7 +1,7 @@
 //! `centrode run`: simulate one scenario, sample by sample: a long run needs no more memory than a short one.
 
 use super::ScenarioArgs;
-use super::output::{Failure, NewFile, json};
+use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
 use crate::experiment::{CHANNELS, Crossing, Detection, Method, Plan, Sample, Scenario, Simulation};
 use clap::Args;
 use serde::Serialize;
@@ -94,7 +94,7 @@ impl RunArgs {
             }
         }
         if let Some(csv) = csv {
-            csv.into_inner().map_err(|error| Failure::Input(format!("cannot write the CSV: {error}")))?.finish()?;
+            finish_csv(csv)?;
         }
         let contact_time = simulation.contact_time();
         let contact = plan.contact().zip(contact_time).map(|(contact, time)| Contact {
@@ -109,27 +109,6 @@ impl RunArgs {
         let report = Report { samples: plan.samples(), contact, crossings, detection: found, peak, scenario };
         if self.json { json(out, &report) } else { Ok(table(out, &report)?) }
     }
-}
-
-fn write_record(csv: &mut csv::Writer<NewFile>, fields: impl Iterator<Item = String>) -> Result<(), Failure> {
-    for field in fields {
-        csv.write_field(field).map_err(|error| blame(csv, error))?;
-    }
-    csv.write_record(None::<&[u8]>).map_err(|error| blame(csv, error))
-}
-
-fn blame(csv: &csv::Writer<NewFile>, error: csv::Error) -> Failure {
-    let error = match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        // Only writing can fail here: every record has as many fields as the header.
-        other => std::io::Error::other(format!("{other:?}")),
-    };
-    csv.get_ref().blame(&error)
-}
-
-/// A number as it is read back; what is not defined stays empty.
-fn cell(value: f64) -> String {
-    if value.is_nan() { String::new() } else { value.to_string() }
 }
 
 /// At most this many crossings are listed in the table; JSON holds them all.
