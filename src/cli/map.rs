@@ -1,6 +1,7 @@
 //! `centrode map`: what can be seen at all, over the place of the contact and the bend at contact.
 
 use super::ScenarioArgs;
+use super::draw::{self, Kind};
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
 use crate::experiment::{Plan, Scenario};
 use crate::study::Job;
@@ -8,7 +9,7 @@ use crate::study::map::{Map, MapJob, largest_deviation, largest_epsilon};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Flags of `centrode map`.
 #[derive(Debug, Args)]
@@ -21,8 +22,8 @@ pub struct MapArgs {
     /// Cells over the place of the contact.
     #[arg(long, value_name = "N", default_value_t = 100, value_parser = clap::value_parser!(u16).range(2..=1000))]
     rows: u16,
-    /// File to write: every cell, units in the header.
-    #[arg(long, value_name = "FILE.csv")]
+    /// File to write: its extension says how, svg, png or csv (every cell, units in the header).
+    #[arg(long, value_name = "FILE.{svg,png,csv}")]
     out: Option<PathBuf>,
     /// Print JSON instead of a summary, in SI units: every cell, null where nothing is judged.
     #[arg(long)]
@@ -70,25 +71,13 @@ struct Sight {
 impl Sight {
     fn new(map: &Map, values: &[f64], setting: Option<f64>) -> Self {
         let finds = |&value: &f64| setting.is_some_and(|setting| value > setting);
-        let first = values.iter().position(|value| finds(value));
+        let first = values.iter().position(finds);
         Self {
             setting,
             judged: values.iter().filter(|value| !value.is_nan()).count(),
             found: values.iter().filter(|value| finds(value)).count(),
             lowest: first.map_or(f64::NAN, |cell| map.arc_lengths[cell / map.bends.len()]),
         }
-    }
-}
-
-/// Refuses a file whose extension names no format.
-fn check_extension(path: &Path) -> Result<(), Failure> {
-    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-    match extension.as_deref() {
-        Some("csv") => Ok(()),
-        Some(other) => {
-            Err(Failure::Input(format!("--out {}: unknown extension .{other}; known is .csv", path.display())))
-        }
-        None => Err(Failure::Input(format!("--out {}: the extension is missing; known is .csv", path.display()))),
     }
 }
 
@@ -99,13 +88,18 @@ impl MapArgs {
         let refused = |error: crate::experiment::ScenarioError| Failure::Input(error.to_string());
         let plan = Plan::new(&scenario).map_err(refused)?;
         let mut job = MapJob::new(&scenario, self.columns.into(), self.rows.into()).map_err(refused)?;
-        self.out.as_deref().map(check_extension).transpose()?;
+        let kind = self.out.as_deref().map(Kind::of).transpose()?;
         // A file that cannot be written is said before the work, not after it.
         let file = self.out.as_deref().map(NewFile::create).transpose()?;
         job.finish();
         let map = job.map();
-        if let Some(file) = file {
-            csv(file, map)?;
+        match (file, kind) {
+            (Some(mut file), Some(Kind::Drawing(format))) => {
+                draw::write(&mut file, draw::map(map, &plan, format))?;
+                file.finish()?;
+            }
+            (Some(file), _) => csv(file, map)?,
+            (None, _) => {}
         }
         let report = Report {
             contact: plan.contact().map(|contact| Own {

@@ -2,6 +2,8 @@
 //!
 //! Exit code 0 for work done, 2 for bad input with one line on standard error. A closed pipe ends it quietly.
 
+mod draw;
+mod figure;
 mod map;
 mod model;
 mod output;
@@ -31,6 +33,8 @@ struct Cli {
 enum Command {
     /// Evaluate the model in one configuration.
     Model(model::ModelArgs),
+    /// Draw one of the paper's figures from simulated runs, or write its numbers.
+    Figure(figure::FigureArgs),
     /// Simulate a scenario and report threshold crossings and the estimated contact location.
     Run(run::RunArgs),
     /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
@@ -116,7 +120,7 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "what to do is missing: model, run, table2, map, presets or scenario (see --help)".into(),
+                "what to do is missing: model, run, figure, table2, map, presets or scenario (see --help)".into(),
             )
             .report();
         }
@@ -126,6 +130,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Model(args) => args.execute(&mut out),
         Command::Run(args) => args.execute(&mut out),
+        Command::Figure(args) => args.execute(&mut out),
         Command::Table2(args) => args.execute(&mut out),
         Command::Map(args) => args.execute(&mut out),
         Command::Presets => presets(&mut out),
