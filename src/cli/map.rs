@@ -70,11 +70,11 @@ struct Sight {
 impl Sight {
     fn new(map: &Map, values: &[f64], setting: Option<f64>) -> Self {
         let finds = |&value: &f64| setting.is_some_and(|setting| value > setting);
-        let first = values.iter().position(|value| finds(value));
+        let first = values.iter().position(finds);
         Self {
             setting,
             judged: values.iter().filter(|value| !value.is_nan()).count(),
-            found: values.iter().filter(|value| finds(value)).count(),
+            found: values.iter().filter(|&value| finds(value)).count(),
             lowest: first.map_or(f64::NAN, |cell| map.arc_lengths[cell / map.bends.len()]),
         }
     }
