@@ -13,6 +13,7 @@ mod map;
 #[cfg(feature = "cli")]
 mod map_command;
 mod misprints;
+mod paper;
 mod properties;
 #[cfg(feature = "gui-tests")]
 mod render;

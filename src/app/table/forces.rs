@@ -46,68 +46,24 @@ pub const PRELOAD_NOTE: &str = "A preload pulls on all three backbones alike, an
     common to the cells cancels in it, so ε_c does not know the preload. Cells that err apart leave a part of it, so the \
     bound for independent errors grows with it.";
 
+const fn force(key: &'static str, label: &'static str, field: Field) -> Control {
+    let tip = "Force at the end disk's centre, along this axis of the base.";
+    row(key, label, Force, 2, Linear(0.05), |_| (-5.0, 5.0), field, tip)
+}
+
+const fn moment(key: &'static str, label: &'static str, field: Field) -> Control {
+    let tip = "Moment on the end disk, along this axis of the base.";
+    row(key, label, Moment, 1, Linear(1.0), |_| (-50.0, 50.0), field, tip)
+}
+
 /// The wrench on the end disk.
 pub const LOAD: &[Control] = &[
-    row(
-        "load.force[0]",
-        "Force x",
-        Force,
-        2,
-        Linear(0.05),
-        |_| (-5.0, 5.0),
-        field!(part 0 of load.force),
-        "Force at the end disk's centre, along x of the base.",
-    ),
-    row(
-        "load.force[1]",
-        "Force y",
-        Force,
-        2,
-        Linear(0.05),
-        |_| (-5.0, 5.0),
-        field!(part 1 of load.force),
-        "Force at the end disk's centre, along y of the base.",
-    ),
-    row(
-        "load.force[2]",
-        "Force z",
-        Force,
-        2,
-        Linear(0.05),
-        |_| (-5.0, 5.0),
-        field!(part 2 of load.force),
-        "Force at the end disk's centre, along z of the base.",
-    ),
-    row(
-        "load.moment[0]",
-        "Moment x",
-        Moment,
-        1,
-        Linear(1.0),
-        |_| (-50.0, 50.0),
-        field!(part 0 of load.moment),
-        "Moment on the end disk, along x of the base.",
-    ),
-    row(
-        "load.moment[1]",
-        "Moment y",
-        Moment,
-        1,
-        Linear(1.0),
-        |_| (-50.0, 50.0),
-        field!(part 1 of load.moment),
-        "Moment on the end disk, along y of the base.",
-    ),
-    row(
-        "load.moment[2]",
-        "Moment z",
-        Moment,
-        1,
-        Linear(1.0),
-        |_| (-50.0, 50.0),
-        field!(part 2 of load.moment),
-        "Moment on the end disk, along z of the base.",
-    ),
+    force("load.force[0]", "Force x", field!(part 0 of load.force)),
+    force("load.force[1]", "Force y", field!(part 1 of load.force)),
+    force("load.force[2]", "Force z", field!(part 2 of load.force)),
+    moment("load.moment[0]", "Moment x", field!(part 0 of load.moment)),
+    moment("load.moment[1]", "Moment y", field!(part 1 of load.moment)),
+    moment("load.moment[2]", "Moment z", field!(part 2 of load.moment)),
     row(
         "load.start",
         "Load begins",
