@@ -5,6 +5,7 @@ use centrode::experiment::{Plan, Scenario, Simulation, simulate};
 use centrode::model::{Configuration, Constrained, Rate, locate};
 use centrode::study::Job;
 use centrode::study::map::MapJob;
+use centrode::study::table2::{PAPER_REPEATS, Table2Job};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
 
@@ -47,6 +48,14 @@ fn study(c: &mut Criterion) {
             let mut job = MapJob::new(black_box(&scenario), 100, 100).expect("valid");
             job.finish();
             job.map().deviation[5050]
+        });
+    });
+    let bench = find("bench").and_then(|preset| preset.scenario()).expect("bench");
+    c.bench_function("table2/5 repeats", |b| {
+        b.iter(|| {
+            let mut job = Table2Job::new(black_box(&bench), PAPER_REPEATS).expect("valid");
+            job.finish();
+            job.table().simulated[1].location.mean
         });
     });
 }

@@ -75,7 +75,7 @@ impl Sight {
         Self {
             setting,
             judged: values.iter().filter(|value| !value.is_nan()).count(),
-            found: values.iter().filter(|value| finds(value)).count(),
+            found: values.iter().filter(|&value| finds(value)).count(),
             lowest: first.map_or(f64::NAN, |cell| map.arc_lengths[cell / map.bends.len()]),
         }
     }

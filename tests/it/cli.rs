@@ -5,18 +5,18 @@ use std::io::{BufRead, BufReader, Read};
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
-fn centrode(args: &[&str]) -> Output {
+pub fn centrode(args: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_centrode")).args(args).output().expect("the command starts")
 }
 
-fn json(args: &[&str]) -> Value {
+pub fn json(args: &[&str]) -> Value {
     let output = centrode(args);
     assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
     serde_json::from_slice(&output.stdout).expect("JSON")
 }
 
 /// A path that no other test uses.
-fn scratch(name: &str) -> PathBuf {
+pub fn scratch(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("centrode-{}-{name}", std::process::id()))
 }
 
@@ -167,7 +167,7 @@ fn bad_input_is_one_line_and_exit_code_2() {
         (&["model", "--theta-l", "1", "--length", "-2"], &["--length", "-2"]),
         (&["model"], &["--theta-l"]),
         (&["dance"], &["dance"]),
-        (&[], &["model, run"]),
+        (&[], &["model, run, table2, map"]),
     ] {
         let output = centrode(args);
         let message = String::from_utf8(output.stderr).expect("UTF-8");

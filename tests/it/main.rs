@@ -2,12 +2,16 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+#[cfg(feature = "cli")]
+mod documented;
 mod experiment;
 mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
 mod map;
+#[cfg(feature = "cli")]
+mod map_command;
 mod misprints;
 mod paper;
 mod properties;
@@ -17,3 +21,4 @@ mod reproducible;
 #[cfg(feature = "gui-tests")]
 mod shaders;
 mod support;
+mod table2;
