@@ -5,6 +5,8 @@ mod cli;
 #[cfg(feature = "cli")]
 mod documented;
 mod experiment;
+#[cfg(feature = "cli")]
+mod figure;
 mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]

@@ -25,7 +25,7 @@ pub fn register_fonts() -> Result<(), String> {
 /// Text in which `_x` is a subscript, as runs of equal size.
 fn runs(text: &str) -> Vec<(String, bool)> {
     // The font lacks the double bar.
-    let text = text.replace('‖', "||");
+    let text = text.replace('‖', "||").replace("ξ1", "ξ_1").replace("ξ2", "ξ_2");
     let mut runs: Vec<(String, bool)> = Vec::new();
     let mut low = false;
     for character in text.chars() {

@@ -1,6 +1,6 @@
 //! Draws the map of what can be seen: two panels with their colour bars, level lines and the contact.
 
-use super::canvas::{Align, Canvas, Look, Paper, Point};
+use super::canvas::{Align, Canvas, Look, Paper, Point, width};
 use super::ticks::ticks;
 use super::{Format, bytes};
 use crate::experiment::Plan;
@@ -110,9 +110,9 @@ impl Drawing<'_> {
         let (bend_step, place_step) = (step(&map.bends), step(&map.arc_lengths));
         let (first, last) = (map.bends[0] - 0.5 * bend_step, map.bends[columns - 1] + 0.5 * bend_step);
         let (low, high) = (first.min(last), first.max(last));
-        let width = if high > low { high - low } else { 1.0 };
+        let span = if high > low { high - low } else { 1.0 };
         let length = self.plan.segment().length;
-        let x = |bend: f64| left + (right - left) * (bend - low) / width;
+        let x = |bend: f64| left + (right - left) * (bend - low) / span;
         let y = |place: f64| BOTTOM - (BOTTOM - TOP) * place / length;
         for row in 0..rows {
             for column in 0..columns {
@@ -144,6 +144,10 @@ impl Drawing<'_> {
             Align::Left,
             Look { bold: true, upright: false },
         );
+        if let Some(level) = panel.level {
+            let text = format!("line: {} = {:.1} {}", panel.level_name, level * panel.scale, panel.unit);
+            canvas.text(&text, [right, TOP - 18.0], SMALL, palette.ink_dim, Align::Right, plain);
+        }
         for (value, text) in ticks([low.to_degrees(), high.to_degrees()], "°") {
             let at = x(value.to_radians());
             canvas.line(&[[at, BOTTOM], [at, BOTTOM + 5.0]], palette.ink_dim, 1.0);
@@ -161,6 +165,9 @@ impl Drawing<'_> {
         for (k, &disk) in self.plan.scenario().robot.disks.iter().enumerate() {
             canvas.line(&[[right - 9.0, y(disk)], [right, y(disk)]], Color::WHITE, 1.5);
             let at = [right - 13.0, y(disk) + 4.0];
+            let wide = width(&format!("disk {}", k + 1), SMALL - 1.0, false);
+            let behind = [at[0] - wide - 4.0, at[1] - 12.0, at[0] + 3.0, at[1] + 4.0];
+            canvas.rectangle(behind, Color::rgba(0.0, 0.0, 0.0, 0.55));
             canvas.text(&format!("disk {}", k + 1), at, SMALL - 1.0, Color::WHITE, Align::Right, plain);
         }
         self.bar(canvas, panel, right + 14.0, palette);
@@ -217,8 +224,6 @@ impl Drawing<'_> {
         canvas.text(panel.unit, [left, TOP - 18.0], SMALL, palette.ink, Align::Left, Look::default());
         if let Some(level) = panel.level.filter(|level| *level <= panel.top) {
             canvas.line(&[[left - 3.0, y(level)], [left + 17.0, y(level)]], Color::WHITE, 2.0);
-            let text = format!("{} = {:.1}", panel.level_name, level * panel.scale);
-            canvas.text(&text, [left + 46.0, y(level) + 4.5], SMALL, palette.ink_dim, Align::Left, Look::default());
         }
     }
 }

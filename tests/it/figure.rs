@@ -1,0 +1,122 @@
+//! `centrode figure` and the drawings of `centrode map`, as files.
+
+use centrode::experiment::preset::find;
+use centrode::study::Job;
+use centrode::study::figure::{Figure, FigureJob, Number};
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+fn centrode(args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_centrode")).args(args).output().expect("the command starts")
+}
+
+/// A folder that no other test uses, empty.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("centrode-{}-{name}", std::process::id()));
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+/// Runs a command that writes `file` into a folder of its own, in which nothing else may be left.
+fn written(name: &str, args: &[&str], file: &str) -> Vec<u8> {
+    let folder = folder(name);
+    let path = folder.join(file);
+    let output = centrode(&[args, &["--out", path.to_str().expect("a path")]].concat());
+    assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+    let bytes = fs::read(&path).expect("written");
+    assert_eq!(fs::read_dir(&folder).expect("listed").count(), 1, "nothing else is left");
+    fs::remove_dir_all(&folder).expect("removed");
+    bytes
+}
+
+fn figure(number: Number) -> Figure {
+    let scenario = find(number.preset()).and_then(|preset| preset.scenario()).expect("its preset");
+    let mut job = FigureJob::new(number, &scenario).expect("valid");
+    job.finish();
+    job.figure()
+}
+
+/// Width, height, and share of pixels that are not white.
+fn picture(bytes: &[u8]) -> (u32, u32, f64) {
+    let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
+    let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut pixels).expect("pixels");
+    let inked = pixels.chunks(3).filter(|pixel| pixel.iter().any(|&value| value < 200)).count();
+    (info.width, info.height, inked as f64 / f64::from(info.width * info.height))
+}
+
+#[test]
+fn every_figure_is_written_as_a_drawing_and_as_numbers() {
+    for number in Number::ALL {
+        let (digit, figure) = (number.to_string(), figure(number));
+        let name = |kind: &str| format!("figure-{digit}-{kind}");
+        let svg = String::from_utf8(written(&name("svg"), &["figure", &digit], "f.svg")).expect("text");
+        assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("NaN"), "figure {digit}");
+        for word in ["Simulated", figure.x.unit, figure.y.unit, figure.title.split(' ').next().expect("a word")] {
+            assert!(svg.contains(word), "figure {digit} lacks {word:?}");
+        }
+        let (width, height, inked) = picture(&written(&name("png"), &["figure", &digit], "f.PNG"));
+        assert_eq!((width, height), (2400, 1640));
+        assert!((0.005..0.4).contains(&inked), "figure {digit}: {inked} of it is drawn on");
+
+        let text = String::from_utf8(written(&name("csv"), &["figure", &digit], "f.csv")).expect("text");
+        let mut rows = csv::Reader::from_reader(text.as_bytes());
+        let header = rows.headers().expect("a header").clone();
+        assert!(header[3].contains(&format!("[{}]", figure.x.si_unit)), "{header:?}");
+        let rows: Vec<_> = rows.records().map(|row| row.expect("a row")).collect();
+        let points: Vec<_> = figure.series.iter().flat_map(|series| &series.points).collect();
+        assert_eq!(rows.len(), points.len() + figure.verticals.len() + 2 * figure.spans.len());
+        for (row, point) in rows.iter().zip(points) {
+            let read = |k: usize| row[k].parse().unwrap_or(f64::NAN);
+            for (k, value) in [(3, point[0]), (4, point[1])] {
+                assert!(read(k) == value || (value.is_nan() && row[k].is_empty()), "figure {digit}: {row:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_figure_follows_its_overrides() {
+    let caption = |args: &[&str]| String::from_utf8(written("override", args, "f.svg")).expect("text");
+    let shown = caption(&["figure", "8", "--set", "filter.length=250"]);
+    assert_ne!(shown, caption(&["figure", "8"]));
+}
+
+#[test]
+fn the_map_is_drawn() {
+    let args = ["map", "--columns", "20", "--rows", "15"];
+    let svg = String::from_utf8(written("map-svg", &args, "m.svg")).expect("text");
+    assert!(svg.contains("Bend at contact") && svg.trim_end().ends_with("</svg>"));
+    let (width, height, inked) = picture(&written("map-png", &args, "m.png"));
+    assert_eq!((width, height), (2560, 1280));
+    assert!(inked > 0.3, "{inked}");
+}
+
+#[test]
+fn bad_input_is_one_line_and_leaves_no_file() {
+    let folder = folder("bad");
+    let file = |name: &str| folder.join(name).to_str().expect("a path").to_owned();
+    let (svg, gif, bare, lost) = (file("f.svg"), file("f.gif"), file("f"), file("no/such/f.svg"));
+    let cases: [(&[&str], &[&str]); 9] = [
+        (&["figure", "5", "--out", &svg], &["\"5\"", "3, 4, 6, 7, 8"]),
+        (&["figure", "three", "--out", &svg], &["three", "3, 4, 6, 7, 8"]),
+        (&["figure", "3", "--out", &gif], &["f.gif", ".gif", ".svg, .png, .csv"]),
+        (&["figure", "3", "--out", &bare], &["extension is missing"]),
+        (&["figure", "3", "--out", &lost], &["no/such/f.svg"]),
+        (&["figure", "8", "--set", "contact.disk=9", "--out", &svg], &["contact.disk", "9", "1 to 3"]),
+        (&["figure", "8"], &["--out"]),
+        (&["map", "--out", &gif], &["f.gif", ".svg, .png, .csv"]),
+        (&["map", "--rows", "1", "--out", &svg], &["--rows", "1"]),
+    ];
+    for (args, parts) in cases {
+        let output = centrode(args);
+        let message = String::from_utf8(output.stderr).expect("text");
+        assert_eq!(output.status.code(), Some(2), "{args:?}: {message}");
+        assert_eq!(message.lines().count(), 1, "{message}");
+        assert!(parts.iter().all(|part| message.contains(part)), "{args:?}: {message:?} lacks one of {parts:?}");
+    }
+    assert_eq!(fs::read_dir(&folder).expect("listed").count(), 0, "something is left behind");
+    fs::remove_dir_all(&folder).expect("removed");
+}
