@@ -167,7 +167,7 @@ fn bad_input_is_one_line_and_exit_code_2() {
         (&["model", "--theta-l", "1", "--length", "-2"], &["--length", "-2"]),
         (&["model"], &["--theta-l"]),
         (&["dance"], &["dance"]),
-        (&[], &["model, run, table2, map"]),
+        (&[], &["model, run, figure, table2, map"]),
     ] {
         let output = centrode(args);
         let message = String::from_utf8(output.stderr).expect("UTF-8");
