@@ -81,7 +81,8 @@ fn bytes<D: Drawing>(drawing: &D, format: Format) -> Result<Vec<u8>, String> {
             let mut canvas =
                 Canvas::new(SVGBackend::with_string(&mut text, (width * FINE, height * FINE)), f64::from(FINE));
             drawing.draw(&mut canvas);
-            canvas.finish()?;
+            let lengths = canvas.finish()?;
+            let text = of_length(&text, &lengths);
             let size = |scale| format!("width=\"{}\" height=\"{}\"", width * scale, height * scale);
             Ok(text.replacen(&size(FINE), &size(1), 1).into_bytes())
         }
@@ -96,6 +97,16 @@ fn bytes<D: Drawing>(drawing: &D, format: Format) -> Result<Vec<u8>, String> {
             encoded(&pixels, width * PIXELS, height * PIXELS)
         }
     }
+}
+
+/// Holds each text of an SVG to its length, so that a viewer without the font leaves everything in its place.
+fn of_length(svg: &str, lengths: &[f64]) -> String {
+    let mut parts = svg.split("<text ");
+    let mut held = parts.next().unwrap_or_default().to_owned();
+    for (part, length) in parts.zip(lengths) {
+        held += &format!("<text textLength=\"{length:.0}\" lengthAdjust=\"spacingAndGlyphs\" {part}");
+    }
+    held
 }
 
 /// Each square of points as one pixel, so that edges are smooth.

@@ -54,6 +54,8 @@ fn every_figure_is_written_as_a_drawing_and_as_numbers() {
         let name = |kind: &str| format!("figure-{digit}-{kind}");
         let svg = String::from_utf8(written(&name("svg"), &["figure", &digit], "f.svg")).expect("text");
         assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("NaN"), "figure {digit}");
+        let count = |part: &str| svg.matches(part).count();
+        assert!(count("<text ") > 15 && count("<text ") == count("textLength=") && count("<text ") == count("</text>"));
         for word in ["Simulated", figure.x.unit, figure.y.unit, figure.title.split(' ').next().expect("a word")] {
             assert!(svg.contains(word), "figure {digit} lacks {word:?}");
         }

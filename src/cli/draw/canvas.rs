@@ -95,18 +95,20 @@ pub struct Canvas<P: Paper> {
     paper: P,
     scale: f64,
     failed: Option<String>,
+    /// Lengths of the texts drawn, in order, in units of the paper.
+    lengths: Vec<f64>,
 }
 
 impl<P: Paper> Canvas<P> {
     /// A page on paper with `scale` pixels for each unit.
     pub fn new(paper: P, scale: f64) -> Self {
-        Self { paper, scale, failed: None }
+        Self { paper, scale, failed: None, lengths: Vec::new() }
     }
 
-    /// Ends the drawing.
-    pub fn finish(mut self) -> Result<(), String> {
+    /// Ends the drawing; gives the lengths of its texts, in order, in units of the paper.
+    pub fn finish(mut self) -> Result<Vec<f64>, String> {
         let done = self.paper.present().map_err(|error| error.to_string());
-        self.failed.map_or(done, Err)
+        self.failed.map_or(done, Err).map(|()| self.lengths)
     }
 
     fn note<E: std::fmt::Display>(failed: &mut Option<String>, done: Result<(), E>) {
@@ -207,6 +209,10 @@ impl<P: Paper> Canvas<P> {
         };
         for (run, low) in runs(text) {
             let (size, sunk) = if low { (SUBSCRIPT.0 * size, SUBSCRIPT.1 * size) } else { (size, 0.0) };
+            // SVG swallows spaces at both ends of a text.
+            let (whole, bare) = (run_width(&run, size, look.bold), run.trim_start());
+            let rest = run_width(bare, size, look.bold);
+            along += whole - rest;
             let height = size * P::EM;
             let down = sunk - P::BASELINE * height;
             let place = if look.upright { [at[0] + down, at[1] - along] } else { [at[0] + along, at[1] + down] };
@@ -216,9 +222,11 @@ impl<P: Paper> Canvas<P> {
             let color = rgba(color);
             let style = TextStyle::from(font).color(&color).pos(Pos::new(HPos::Left, VPos::Top));
             let pixel = self.pixel(place);
-            // A space at an end is no reason to move what stands beside it.
-            Self::note(&mut self.failed, self.paper.draw_text(&run, &style, pixel));
-            along += run_width(&run, size, look.bold);
+            if !bare.trim_end().is_empty() {
+                self.lengths.push(run_width(bare.trim_end(), size, look.bold) * self.scale);
+                Self::note(&mut self.failed, self.paper.draw_text(bare.trim_end(), &style, pixel));
+            }
+            along += rest;
         }
     }
 }
