@@ -148,7 +148,7 @@ impl Drawing<'_> {
             let text = format!("line: {} = {:.1} {}", panel.level_name, level * panel.scale, panel.unit);
             canvas.text(&text, [right, TOP - 18.0], SMALL, palette.ink_dim, Align::Right, plain);
         }
-        for (value, text) in ticks([low.to_degrees(), high.to_degrees()], "°") {
+        for (value, text) in ticks([low.to_degrees(), (low + span).to_degrees()], "°") {
             let at = x(value.to_radians());
             canvas.line(&[[at, BOTTOM], [at, BOTTOM + 5.0]], palette.ink_dim, 1.0);
             canvas.text(&text, [at, BOTTOM + 20.0], SMALL, palette.ink, Align::Center, plain);
