@@ -7,6 +7,8 @@ pub mod figure;
 pub mod map;
 pub mod seed;
 pub mod table2;
+pub mod truth;
+pub mod tuning;
 
 /// Work in pieces of a few milliseconds.
 pub trait Job {

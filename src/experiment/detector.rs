@@ -53,6 +53,22 @@ pub struct Judgement {
     pub shape_bound: f64,
 }
 
+impl Judgement {
+    /// What the thresholds are held against at `time` (s): ‖c_m − c_s‖ (m) and Θ (N·m).
+    ///
+    /// None where the value is not defined or not judged: the alarm stays as it was. Before arming both lie below
+    /// every threshold.
+    #[must_use]
+    pub fn looked_at(&self, time: f64, thresholds: &Thresholds) -> [Option<f64>; 2] {
+        let moving = self.speed > thresholds.min_speed;
+        let armed = time >= thresholds.armed_from;
+        [(self.deviation, moving), (self.residual, true)].map(|(value, judged)| {
+            let looked = judged && !value.is_nan();
+            looked.then_some(if armed { value } else { f64::NEG_INFINITY })
+        })
+    }
+}
+
 /// A threshold crossed upward.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Crossing {
@@ -101,18 +117,16 @@ impl Detector {
     /// Judges one instant; `crossed` is called for each threshold crossed upward.
     pub fn judge(&mut self, measurement: &Measurement, mut crossed: impl FnMut(Crossing)) -> Judgement {
         let judgement = self.compare(measurement);
-        let armed = measurement.time >= self.thresholds.armed_from;
-        let moving = judgement.speed > self.thresholds.min_speed;
+        let [deviation, residual] = judgement.looked_at(measurement.time, &self.thresholds);
         let values = [
-            (Method::Fcd, judgement.deviation, self.thresholds.xi2.value(), moving),
-            (Method::Jfd, judgement.residual, self.thresholds.xi1_at(judgement.shape_bound), true),
+            (Method::Fcd, deviation, self.thresholds.xi2.value()),
+            (Method::Jfd, residual, self.thresholds.xi1_at(judgement.shape_bound)),
         ];
-        for (which, (method, value, threshold, judged)) in values.into_iter().enumerate() {
-            // What is not defined or not judged leaves the alarm as it was.
-            let (Some(threshold), true) = (threshold, judged && !value.is_nan()) else {
+        for (which, (method, value, threshold)) in values.into_iter().enumerate() {
+            let (Some(value), Some(threshold)) = (value, threshold) else {
                 continue;
             };
-            let above = armed && value > threshold;
+            let above = value > threshold;
             let was = std::mem::replace(&mut self.above[which], above);
             if above && !was {
                 let Measurement { time, configuration, .. } = *measurement;

@@ -132,6 +132,12 @@ impl Plan {
         })
     }
 
+    /// The same with another seed, of which the bits above [`MAX_SEED`] do not count.
+    #[must_use]
+    pub fn with_seed(&self, seed: u64) -> Self {
+        Self { scenario: Scenario { seed: seed & MAX_SEED, ..self.scenario.clone() }, ..self.clone() }
+    }
+
     /// What was asked for.
     #[must_use]
     pub fn scenario(&self) -> &Scenario {

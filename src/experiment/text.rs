@@ -83,6 +83,17 @@ impl Draft {
         Ok(())
     }
 
+    /// Whether the value under a key is a whole number.
+    #[must_use]
+    pub fn is_whole(&self, key: &str) -> bool {
+        let (groups, name) = key.rsplit_once('.').unwrap_or(("", key));
+        let mut table = Some(&self.table);
+        for group in groups.split('.').filter(|group| !group.is_empty()) {
+            table = table.and_then(|table| table.get(group)).and_then(Value::as_table);
+        }
+        table.and_then(|table| table.get(name)).is_some_and(Value::is_integer)
+    }
+
     /// The draft itself when every key in it exists.
     ///
     /// # Errors

@@ -24,3 +24,4 @@ mod reproducible;
 mod shaders;
 mod support;
 mod table2;
+mod tuning;

@@ -1,0 +1,213 @@
+//! The study of thresholds, held against single runs and against what is known beforehand.
+
+use centrode::experiment::detector::Method as Lamp;
+use centrode::experiment::preset::find;
+use centrode::experiment::scenario::{Place, Threshold, Xi1Rule};
+use centrode::experiment::{Scenario, simulate};
+use centrode::study::Job;
+use centrode::study::seed::repeat_seed;
+use centrode::study::tuning::recommend::{Verdict, Wish, recommend};
+use centrode::study::tuning::watch::{Method, NEVER};
+use centrode::study::tuning::{Spec, Study};
+
+fn noisy(sets: &[&str]) -> Scenario {
+    let mut draft = find("bench").and_then(|preset| preset.draft()).expect("bench");
+    let noise = ["tracker.position_noise=0.00005", "tracker.orientation_noise=0.0002", "load_cells.noise=0.3"];
+    noise.iter().chain(sets).for_each(|set| draft.set(set).expect(set));
+    draft.finish().expect("valid")
+}
+
+fn study(scenario: &Scenario, repeats: usize, cells: &[&[&str]]) -> Study {
+    let cells = cells.iter().map(|cell| cell.iter().map(ToString::to_string).collect()).collect();
+    let spec = Spec { scenario: scenario.clone(), repeats, late: 1.0, cells, xi2: None, xi1: None };
+    Study::new(spec).expect("a study")
+}
+
+/// Whether each lamp is lit, sample by sample, from the crossings and values of a run with these thresholds.
+fn first_alarm(scenario: &Scenario, method: Method) -> u32 {
+    let run = simulate(scenario).expect("valid");
+    let detection = &scenario.detection;
+    let mut lit = [false; 2];
+    for (k, sample) in run.samples.iter().enumerate() {
+        let judgement = &sample.judgement;
+        let looked = judgement.looked_at(sample.time, detection);
+        let thresholds = [detection.xi2.value(), detection.xi1_at(judgement.shape_bound)];
+        for which in 0..2 {
+            if let (Some(value), Some(threshold)) = (looked[which], thresholds[which]) {
+                lit[which] = value > threshold;
+            }
+        }
+        let alarm = match method {
+            Method::Fcd => lit[0],
+            Method::Jfd => lit[1],
+            Method::Or => lit[0] || lit[1],
+            Method::And => lit[0] && lit[1],
+        };
+        if alarm {
+            return k as u32;
+        }
+    }
+    NEVER
+}
+
+#[test]
+fn one_pass_gives_what_a_run_with_each_threshold_gives() {
+    for sets in [
+        &[][..],
+        &["contact.disk=0"],
+        &["detection.xi1_rule=bound", "load_cells.errors=independent"],
+        &["detection.min_speed=0.3", "detection.armed_from=3.5"],
+        &["detection.xi1=off"],
+        &["contact.arc_length=0.002", "load.moment=[0,0.05,0]"],
+    ] {
+        let base = noisy(sets);
+        let study = study(&base, 2, &[&[]]);
+        let batch = study.cells()[0].held.unwrap_or(study.cells()[0].free);
+        let repeat = 1;
+        let firsts = study.run((batch, repeat));
+        let levels = study.batches()[batch].levels.clone();
+        let seed = repeat_seed(base.seed, repeat as u64);
+        for method in Method::ALL {
+            let values = method.levels(&levels);
+            // The smallest, the largest, and some between.
+            for level in (0..values.len()).step_by(17).chain([values.len() - 1]) {
+                let mut scenario = Scenario { seed, ..base.clone() };
+                match (method, scenario.detection.xi1_rule) {
+                    (Method::Jfd, Xi1Rule::Constant) => scenario.detection.xi1 = Threshold::On(values[level]),
+                    (Method::Jfd, Xi1Rule::Bound) => scenario.detection.xi1_factor = values[level],
+                    _ => scenario.detection.xi2 = Threshold::On(values[level]),
+                }
+                if method == Method::Jfd && base.detection.xi1 == Threshold::OFF {
+                    continue;
+                }
+                let expected = first_alarm(&scenario, method);
+                let found = firsts[method as usize][level];
+                assert_eq!(found, expected, "{sets:?} {method:?} at {}", values[level]);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_first_alarm_is_the_first_crossing_of_the_run() {
+    let base = noisy(&[]);
+    let study = study(&base, 1, &[&[]]);
+    let run = simulate(&base).expect("valid");
+    let firsts = study.run((study.cells()[0].held.expect("contact"), 0));
+    for (lamp, method) in [(Lamp::Fcd, Method::Fcd), (Lamp::Jfd, Method::Jfd)] {
+        let level = study.own(0, method).expect("its own threshold");
+        let crossing = run.crossings.iter().find(|crossing| crossing.method == lamp).expect("an alarm");
+        assert_eq!(run.plan.time(firsts[method as usize][level] as usize), crossing.time);
+    }
+}
+
+#[test]
+fn the_order_of_work_changes_no_bit() {
+    let base = noisy(&[]);
+    let cells: &[&[&str]] = &[&[], &["filter.length=200"], &["contact.disk=3"]];
+    let mut forward = study(&base, 7, cells);
+    let mut backward = forward.clone();
+    forward.finish();
+    for piece in (0..backward.progress().of).rev() {
+        let piece = backward.piece(piece);
+        let firsts = backward.run(piece);
+        backward.add(piece.0, &firsts);
+    }
+    assert_eq!(forward, backward);
+    // Without contact, the third cell is the first.
+    assert_eq!(forward.batches().len(), 5);
+    assert_eq!(forward.cells()[0].free, forward.cells()[2].free);
+    let mut adopted = study(&base, 7, &[&["filter.length=200"]]);
+    adopted.adopt(&forward);
+    assert!(adopted.progress().is_complete());
+    assert_eq!(adopted.batches()[0].tally, forward.batches()[forward.cells()[1].free].tally);
+}
+
+#[test]
+fn without_noise_the_study_is_the_run() {
+    let paper = Scenario::default();
+    let mut study = study(&paper, 3, &[&[]]);
+    study.finish();
+    let run = simulate(&paper).expect("valid");
+    let level = study.own(0, Method::Fcd).expect("7 mm");
+    let point = study.point(0, Method::Fcd, level);
+    let seen = point.detection.expect("contact");
+    assert_eq!((point.false_alarms.rate.count, seen.detected.count), (0, 3));
+    let delay = run.detection.expect("found").time - study.contact_time(0).expect("contact");
+    for value in [seen.mean, seen.median, seen.median_low, seen.ninety] {
+        assert!((value - delay).abs() < 1e-12, "{value} for {delay}");
+    }
+    assert_eq!(seen.mean_error, 0.0);
+    assert_eq!(study.contact_time(0), run.contact_time);
+}
+
+#[test]
+fn higher_thresholds_are_quieter_and_later() {
+    let mut study = study(&noisy(&[]), 20, &[&[]]);
+    study.finish();
+    for method in Method::ALL {
+        for pair in study.curve(0, method).windows(2) {
+            assert!(pair[0].false_alarms.rate.count >= pair[1].false_alarms.rate.count, "{method:?}");
+            let [low, high] = [&pair[0], &pair[1]].map(|point| point.detection.expect("contact"));
+            assert!(low.early.count >= high.early.count, "{method:?}");
+        }
+    }
+    // Either alarms whenever one does; both, only when each does.
+    let own = study.own(0, Method::Fcd).expect("on");
+    let alarms = |method, level| study.point(0, method, level).false_alarms.rate.count;
+    let jfd = alarms(Method::Jfd, study.own(0, Method::Jfd).expect("on"));
+    assert!(alarms(Method::Or, own) >= alarms(Method::Fcd, own).max(jfd));
+    assert!(alarms(Method::And, own) <= alarms(Method::Fcd, own).min(jfd));
+}
+
+#[test]
+fn a_recommendation_keeps_the_wish_and_is_the_soonest() {
+    let lengths = [["filter.length=500"], ["filter.length=700"], ["filter.length=1000"]];
+    let cells: Vec<&[&str]> = lengths.iter().map(|cell| &cell[..]).collect();
+    let mut study = study(&noisy(&[]), 80, &cells);
+    study.finish();
+    let wish = Wish { method: Method::Fcd, false_alarm_rate: 0.1 };
+    let Verdict::Take { cell, level, point } = recommend(&study, &wish) else { panic!("none") };
+    assert_eq!(*point, study.point(cell, Method::Fcd, level));
+    assert!(point.false_alarms.rate.high <= 0.1);
+    let median = point.detection.expect("contact").median;
+    for cell in 0..3 {
+        for other in study.curve(cell, Method::Fcd) {
+            let quiet = other.false_alarms.rate.high <= 0.1;
+            let delay = other.detection.expect("contact").median;
+            assert!(!quiet || delay.is_nan() || delay >= median, "{other:?}");
+        }
+    }
+    // One in a thousand cannot be shown by 80 runs, however silent.
+    let strict = Wish { false_alarm_rate: 1e-3, ..wish };
+    assert_eq!(recommend(&study, &strict), Verdict::TooFewRuns { needed: 3838 });
+}
+
+#[test]
+fn what_cannot_be_had_is_said() {
+    let wish = Wish { method: Method::Fcd, false_alarm_rate: 0.2 };
+    let verdict = |sets: &[&str], late: f64| {
+        let mut study = study(&noisy(sets), 20, &[&[]]);
+        study = Study::new(Spec { late, ..study.spec().clone() }).expect("a study");
+        study.finish();
+        recommend(&study, &wish)
+    };
+    assert_eq!(verdict(&["contact.disk=0"], 1.0), Verdict::NoContact);
+    assert!(matches!(verdict(&["contact.arc_length=0.0001"], 0.3), Verdict::NoneFinds { best } if best < 0.5));
+    // A tracker so bad that even the largest threshold alarms.
+    let bad = verdict(&["tracker.position_noise=0.5", "detection.min_speed=0.001"], 1.0);
+    assert!(matches!(bad, Verdict::NoneQuiet { lowest } if lowest > 0.2), "{bad:?}");
+}
+
+#[test]
+fn impossible_specs_are_refused() {
+    let spec = study(&Scenario::default(), 1, &[&[]]).spec().clone();
+    let told = |spec: Spec| Study::new(spec).expect_err("refused").to_string();
+    assert!(told(Spec { repeats: 0, ..spec.clone() }).contains("repeats = 0"));
+    assert!(told(Spec { late: f64::NAN, ..spec.clone() }).contains("late = NaN"));
+    let cells = vec![vec!["contact.disk=9".to_string()]];
+    assert!(told(Spec { cells, ..spec.clone() }).contains("contact.disk = 9"));
+    let mut scenario = Scenario::default();
+    scenario.contact.place = Place::Disk(7);
+    assert!(told(Spec { scenario, ..spec }).contains("contact.disk = 7"));
+}
