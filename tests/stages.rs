@@ -15,7 +15,8 @@ const PHONE: Vec2 = vec2(390.0, 844.0);
 
 fn page_of(size: Vec2, theme: egui::Theme) -> Page {
     let ui = |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let app = app.get_or_insert_with(|| App::new(ui.ctx(), None, Host { prefers_reduced_motion: true }));
+        let app = app
+            .get_or_insert_with(|| App::new(ui.ctx(), None, Host { prefers_reduced_motion: true, ..Host::default() }));
         app.ui(ui);
     };
     let setup = centrode::app::theme::install;

@@ -2,9 +2,10 @@
 
 use super::control::{Choice, Control};
 use super::stage::Stage;
-use super::state::Tab;
+use super::state::{Tab, Tuning};
 use crate::experiment::preset::Preset;
 use crate::experiment::scenario::Threshold;
+use crate::study::tuning::watch::Method;
 
 /// One wish.
 #[derive(Debug, Clone)]
@@ -58,6 +59,19 @@ pub enum Command {
         /// Bend at contact, rad.
         bend: f64,
     },
+    /// What is looked at while tuning.
+    Tune(Tuning),
+    /// Take a threshold, ξ2 (m) or ξ1 (N·m, or k where it follows the shape), and a filter length.
+    Take {
+        /// Whose threshold it is.
+        method: Method,
+        /// The threshold.
+        threshold: f64,
+        /// The filter length; none leaves it.
+        length: Option<u64>,
+    },
+    /// Stop the study, or go on with it.
+    HoldStudy(bool),
     /// Open or close the sheet of controls.
     ToggleSheet,
     /// Open or close the help.

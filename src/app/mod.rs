@@ -26,6 +26,7 @@ pub mod story;
 mod studies;
 pub mod table;
 pub mod theme;
+pub mod tuner;
 pub mod viewport;
 pub mod widgets;
 mod words;
@@ -35,8 +36,9 @@ use std::collections::BTreeMap;
 use egui::{Rect, Ui, vec2};
 
 use crate::experiment::preset::{self, Preset};
-use crate::experiment::scenario::{Contact, Place, Start};
+use crate::experiment::scenario::{Contact, Place, Start, Threshold, Xi1Rule};
 use crate::experiment::{Run, Scenario};
+use crate::study::tuning::watch::Method;
 use command::Command;
 use control::Control;
 use layout::Layout;
@@ -49,16 +51,19 @@ use stages::StageState;
 use state::{State, Tab};
 use story::Phase;
 use studies::Studies;
+use tuner::{Helper, Tuner};
 use viewport::ViewState;
 
 /// The longest step of playback, s: after a pause of the whole page the cursor does not leap.
 const LONGEST_STEP: f64 = 0.25;
 
-/// What the surroundings tell.
-#[derive(Debug, Clone, Default)]
+/// What the surroundings tell and lend.
+#[derive(Debug, Default)]
 pub struct Host {
     /// Whether the person asked for less motion.
     pub prefers_reduced_motion: bool,
+    /// Who makes studies outside the interface; without, they are made between frames.
+    pub helper: Option<Box<dyn Helper>>,
 }
 
 /// The whole page.
@@ -71,8 +76,9 @@ pub struct App {
     plots: PlotState,
     view: ViewState,
     studies: Studies,
+    tuner: Tuner,
     stages: StageState,
-    host: Host,
+    prefers_reduced_motion: bool,
 }
 
 impl App {
@@ -90,9 +96,10 @@ impl App {
             chip: Chip::default(),
             plots: PlotState::default(),
             studies: Studies::default(),
+            tuner: Tuner::new(host.helper),
             stages: StageState::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
-            host,
+            prefers_reduced_motion: host.prefers_reduced_motion,
         }
     }
 
@@ -117,7 +124,7 @@ impl App {
     /// Whether work for what is on the stage is left to do.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.studies.progress().is_some()
+        self.studies.progress().is_some() || self.tuner.progress().is_some()
     }
 
     /// The page in a line of JSON: state at the cursor, cursor (s), detection of the run (s, m), playing, and a sentence.
@@ -131,6 +138,7 @@ impl App {
             "location": run.detection.map(|detection| detection.location),
             "playing": self.state.playing,
             "summary": story::sentence(run),
+            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.method)).flatten(),
         })
         .to_string()
     }
@@ -161,6 +169,11 @@ impl App {
     fn study(&mut self, ui: &Ui) {
         self.studies.update(self.state.stage, self.memo.run().plan.scenario());
         if ui.ctx().current_pass_index() == 0 && self.studies.work() {
+            ui.ctx().request_repaint();
+        }
+        let scenario = self.memo.run().plan.scenario();
+        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats);
+        if ui.ctx().current_pass_index() == 0 && self.tuner.work() {
             ui.ctx().request_repaint();
         }
     }
@@ -197,13 +210,13 @@ impl App {
         whole.set_clip_rect(page);
         let ui = &mut whole;
         ui.painter().rect_filled(page, 0.0, theme.surface);
-        let sheet = match (self.host.prefers_reduced_motion, self.state.sheet) {
+        let sheet = match (self.prefers_reduced_motion, self.state.sheet) {
             (true, open) => f32::from(u8::from(open)),
             (false, open) => ui.ctx().animate_bool_responsive(egui::Id::unique("sheet"), open),
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
-        let Self { state, base, memo, notes, chip, plots, view, studies, stages, host } = self;
+        let Self { state, base, memo, notes, chip, plots, view, studies, tuner, stages, prefers_reduced_motion } = self;
         let (state, run) = (&*state, memo.run());
 
         panels::title::title(ui, layout.title, state, layout.sheet, out);
@@ -217,9 +230,10 @@ impl App {
         if robot {
             layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view));
             layout::round(ui, layout.view);
-            chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), host.prefers_reduced_motion);
+            chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
         } else {
-            let inputs = stages::Inputs { stage: state.stage, run, base: (&state.preset, base) };
+            let inputs =
+                stages::Inputs { stage: state.stage, run, base: (&state.preset, base), tuner, tuning: state.tuning };
             layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
         }
         layout::card(ui, "transport", layout.transport, |ui| {
@@ -288,6 +302,9 @@ impl App {
                     s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend) };
                     Ok(())
                 }),
+                Command::Tune(tuning) => self.state.tuning = tuning,
+                Command::Take { method, threshold, length } => self.take(method, threshold, length),
+                Command::HoldStudy(held) => self.tuner.hold(held),
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetXi1(xi1) => self.change("detection.xi1", |s| {
                     s.detection.xi1 = xi1;
@@ -327,6 +344,20 @@ impl App {
                 Command::ToggleHelp => self.state.help = !self.state.help,
             }
         }
+    }
+
+    /// Takes what a study has shown.
+    fn take(&mut self, method: Method, threshold: f64, length: Option<u64>) {
+        self.change("detection.xi2", |s| {
+            let detection = &mut s.detection;
+            match (method, detection.xi1_rule) {
+                (Method::Jfd, Xi1Rule::Constant) => detection.xi1 = Threshold::On(threshold),
+                (Method::Jfd, Xi1Rule::Bound) => detection.xi1_factor = threshold,
+                _ => detection.xi2 = Threshold::On(threshold),
+            }
+            s.filter.length = length.unwrap_or(s.filter.length);
+            Ok(())
+        });
     }
 
     fn choose(&mut self, preset: &Preset) {

@@ -24,11 +24,13 @@ pub enum Stage {
     Table2,
     /// What can be seen at all.
     Map,
+    /// What every threshold and filter would cost.
+    Tuning,
 }
 
 impl Stage {
     /// All of them, in the order offered.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Robot,
         Self::Figure3,
         Self::Figure4,
@@ -37,6 +39,7 @@ impl Stage {
         Self::Figure8,
         Self::Table2,
         Self::Map,
+        Self::Tuning,
     ];
 
     /// The figure it is, if it is one.
@@ -48,7 +51,7 @@ impl Stage {
             Self::Figure6 => Some(Number::Six),
             Self::Figure7 => Some(Number::Seven),
             Self::Figure8 => Some(Number::Eight),
-            Self::Robot | Self::Table2 | Self::Map => None,
+            Self::Robot | Self::Table2 | Self::Map | Self::Tuning => None,
         }
     }
 
@@ -64,6 +67,7 @@ impl Stage {
             Self::Figure8 => "Figure 8",
             Self::Table2 => "Table II",
             Self::Map => "Map",
+            Self::Tuning => "Tuning",
         }
     }
 
@@ -74,6 +78,7 @@ impl Stage {
             (_, Some(number)) => number.title(),
             (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
             (Self::Map, _) => "What can be seen at all: the thresholds that find a contact, by place and bend",
+            (Self::Tuning, _) => "Thresholds and filters: false alarms against delay, from repeated runs",
             _ => "The robot as it bends, and its centrodes in the bending plane",
         }
     }

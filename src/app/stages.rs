@@ -4,17 +4,21 @@ mod chart;
 mod figure;
 mod map;
 mod table;
+mod tuning;
 
 use super::command::Command;
 use super::stage::Stage;
+use super::state::Tuning;
 use super::studies::{Found, Studies};
 use super::theme::Theme;
+use super::tuner::Tuner;
 use super::widgets::segmented::segmented;
 use super::widgets::text;
 use super::{fonts, notation};
 use crate::experiment::{Run, Scenario};
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use map::Picture;
+use tuning::TuningState;
 
 /// Space around the content.
 const PAD: f32 = 14.0;
@@ -23,6 +27,7 @@ const PAD: f32 = 14.0;
 #[derive(Default)]
 pub struct StageState {
     map: Option<Picture>,
+    tuning: TuningState,
 }
 
 /// What the stage is drawn from.
@@ -33,6 +38,10 @@ pub struct Inputs<'a> {
     pub run: &'a Run,
     /// The preset that resets go back to: its name and scenario.
     pub base: (&'a str, &'a Scenario),
+    /// The study behind the tuning view.
+    pub tuner: &'a Tuner,
+    /// What is looked at in it.
+    pub tuning: Tuning,
 }
 
 /// Shows the stage in `rect`.
@@ -48,15 +57,19 @@ pub fn stage(
     let strip = Rect::from_min_max(rect.min + vec2(8.0, 8.0), pos2(rect.right() - 8.0, rect.top() + 40.0));
     choice(ui, strip, inputs.stage, out);
     let line = Rect::from_min_max(pos2(rect.left(), strip.bottom() + 4.0), pos2(rect.right(), strip.bottom() + 6.0));
-    if let Some(progress) = studies.progress() {
+    if let Some(progress) = studies.progress().or(inputs.tuner.left()) {
         let share = progress.done as f32 / progress.of.max(1) as f32;
         ui.painter().rect_filled(line.with_max_x(rect.left() + rect.width() * share), 0.0, theme.accent);
     }
     let body = Rect::from_min_max(pos2(rect.left() + PAD, line.bottom() + 6.0), rect.max - vec2(PAD, 10.0));
-    if let Some(refused) = studies.refused() {
+    if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
         let said = format!("{} cannot be shown: {refused}.", inputs.stage.name());
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(body).id_salt("refused"));
         inner.add(egui::Label::new(notation::job(&said, 13.5, theme.error)).wrap());
+        return;
+    }
+    if inputs.stage == Stage::Tuning {
+        tuning::tuning(ui, body, inputs, &mut state.tuning, out);
         return;
     }
     match studies.found() {
@@ -75,6 +88,7 @@ fn choice(ui: &mut Ui, strip: Rect, stage: Stage, out: &mut Vec<Command>) {
     let names = Stage::ALL.map(|stage| match (narrow, stage.figure()) {
         (true, Some(_)) => stage.name().trim_start_matches("Figure "),
         (true, None) if stage == Stage::Table2 => "II",
+        (true, None) if stage == Stage::Tuning => "Tune",
         _ => stage.name(),
     });
     let chosen = Stage::ALL.iter().position(|other| *other == stage).unwrap_or(0);

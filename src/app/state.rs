@@ -9,6 +9,7 @@ use super::table;
 use super::theme::ThemeChoice;
 use crate::experiment::Scenario;
 use crate::experiment::preset::{self, PRESETS, Preset};
+use crate::study::tuning::watch::Method;
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
 const LEAD_IN: f64 = 0.4;
@@ -37,12 +38,32 @@ pub struct State {
     pub folded: BTreeSet<String>,
     /// What stands on the stage.
     pub stage: Stage,
+    /// What is looked at while tuning.
+    pub tuning: Tuning,
     /// What a small screen shows.
     pub tab: Tab,
     /// Whether a small screen shows the controls.
     pub sheet: bool,
     /// Whether the help is open.
     pub help: bool,
+}
+
+/// What is looked at while tuning.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Tuning {
+    /// How alarms are raised.
+    pub method: Method,
+    /// The most runs without contact that may alarm, as a share.
+    pub wish: f64,
+    /// Repeats of each run.
+    pub repeats: usize,
+}
+
+impl Default for Tuning {
+    fn default() -> Self {
+        Self { method: Method::Fcd, wish: 0.05, repeats: 100 }
+    }
 }
 
 /// Where there is room for one of them only.
@@ -73,6 +94,7 @@ impl Default for State {
             theme: ThemeChoice::System,
             folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
             stage: Stage::Robot,
+            tuning: Tuning::default(),
             tab: Tab::Result,
             sheet: false,
             help: false,

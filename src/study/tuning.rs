@@ -4,11 +4,12 @@
 //! A run is made once and judged by all thresholds in that one pass. Repeat `k` has the seed of
 //! [`repeat_seed`]; what repeats come to is counted in whole numbers. So a study is the same to the bit whoever runs
 //! its pieces, in whichever order. Reading order: `sweep` (what is compared), `levels` (which thresholds), `watch`
-//! (first alarms of one run), `tally` and `rate` (what they come to), `recommend` (which threshold to take).
+//! (first alarms of one run), `tally` and `rate` (what they come to), `recommend` (which threshold to take), `remote` (a study that a worker makes).
 
 pub mod levels;
 pub mod rate;
 pub mod recommend;
+pub mod remote;
 pub mod sweep;
 pub mod tally;
 pub mod watch;
@@ -209,13 +210,20 @@ impl Study {
         }
     }
 
-    /// Takes over the tally of one batch that was counted elsewhere. One that does not fit is left.
+    /// Takes over the tally of one batch that was counted elsewhere. One that does not fit, or says less, is left.
     pub fn set(&mut self, batch: usize, tally: Tally) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
         let lengths = |tally: &Tally| tally.counts.each_ref().map(Vec::len);
-        if lengths(&tally) == lengths(&batch.tally) {
+        if lengths(&tally) == lengths(&batch.tally) && tally.runs > batch.tally.runs {
             batch.tally = tally;
         }
+    }
+
+    /// The batches that are not complete.
+    #[must_use]
+    pub fn missing(&self) -> Vec<usize> {
+        let wanted = self.spec.repeats as u64;
+        (0..self.batches.len()).filter(|&batch| self.batches[batch].tally.runs < wanted).collect()
     }
 
     /// The thresholds of a method in a cell.

@@ -7,6 +7,7 @@ use centrode::experiment::{Scenario, simulate};
 use centrode::study::Job;
 use centrode::study::seed::repeat_seed;
 use centrode::study::tuning::recommend::{Verdict, Wish, recommend};
+use centrode::study::tuning::remote::{Answer, Remote, Request};
 use centrode::study::tuning::watch::{Method, NEVER};
 use centrode::study::tuning::{Spec, Study};
 
@@ -119,7 +120,7 @@ fn the_order_of_work_changes_no_bit() {
     assert_eq!(forward.cells()[0].free, forward.cells()[2].free);
     let mut adopted = study(&base, 7, &[&["filter.length=200"]]);
     adopted.adopt(&forward);
-    assert!(adopted.progress().is_complete());
+    assert!(adopted.missing().is_empty());
     assert_eq!(adopted.batches()[0].tally, forward.batches()[forward.cells()[1].free].tally);
 }
 
@@ -210,4 +211,28 @@ fn impossible_specs_are_refused() {
     let mut scenario = Scenario::default();
     scenario.contact.place = Place::Disk(7);
     assert!(told(Spec { scenario, ..spec }).contains("contact.disk = 7"));
+}
+
+#[test]
+fn a_study_made_elsewhere_is_the_study() {
+    let mut here = study(&noisy(&["detection.xi1=off"]), 5, &[&[], &["filter.length=200"]]);
+    let mut there = here.clone();
+    here.finish();
+    let request = Request { id: 7, spec: there.spec().clone(), batches: there.missing() };
+    let mut remote = Remote::new(&serde_json::to_string(&request).expect("JSON")).expect("a request");
+    let mut runs = 0;
+    while remote.step() {
+        runs += 1;
+        // Answers at odd moments, as they come.
+        if runs % 3 == 0 {
+            let answer = Answer::from_bytes(&remote.answer()).expect("an answer");
+            assert_eq!(answer.id, 7);
+            answer.tallies.into_iter().for_each(|(batch, tally)| there.set(batch as usize, tally));
+        }
+    }
+    let last = Answer::from_bytes(&remote.answer()).expect("an answer");
+    last.tallies.into_iter().for_each(|(batch, tally)| there.set(batch as usize, tally));
+    assert_eq!(runs, 4 * 5);
+    assert_eq!(here, there);
+    assert!(Remote::new("{}").is_err() && Answer::from_bytes(b"nonsense").is_err());
 }

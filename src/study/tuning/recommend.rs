@@ -51,10 +51,19 @@ pub enum Verdict {
 /// smaller delay by which 90 % are found, then with fewer false alarms, then the first.
 #[must_use]
 pub fn recommend(study: &Study, wish: &Wish) -> Verdict {
+    recommend_among(study, 0..study.cells().len(), wish)
+}
+
+/// The same among some of the cells.
+///
+/// # Panics
+/// When there is no such cell.
+#[must_use]
+pub fn recommend_among(study: &Study, cells: impl IntoIterator<Item = usize>, wish: &Wish) -> Verdict {
     let (mut runs, mut lowest, mut finds) = (0, f64::INFINITY, f64::NAN);
     let mut best: Option<(usize, usize, Point)> = None;
     let mut contact = false;
-    for cell in 0..study.cells().len() {
+    for cell in cells {
         runs = runs.max(study.repeats(cell).0);
         contact |= study.contact_time(cell).is_some();
         for (level, point) in study.curve(cell, wish.method).into_iter().enumerate() {

@@ -1,0 +1,273 @@
+//! Tuning: what every threshold and filter length would cost, and which to take.
+//!
+//! Four pictures of one study. A drag on any of them moves the threshold, here and in the live run.
+
+mod curves;
+mod delays;
+mod lengths;
+mod words;
+
+use super::Inputs;
+use crate::app::command::Command;
+use crate::app::fonts;
+use crate::app::notation::job;
+use crate::app::state::Tuning;
+use crate::app::theme::Theme;
+use crate::app::tuner::Cells;
+use crate::app::widgets::segmented::segmented;
+use crate::app::widgets::text::{rich, width};
+use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
+use crate::study::tuning::watch::Method;
+use crate::study::tuning::{Point, Study};
+use egui::{Color32, CursorIcon, Label, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use lengths::Picture;
+
+/// From this width on the pictures stand two by two.
+const BESIDE: f32 = 700.0;
+/// Least height of a picture.
+const LEAST: f32 = 176.0;
+const GAP: f32 = 12.0;
+/// The shares of false alarms that can be wished for.
+const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
+const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
+
+/// How a method is called, and its threshold, unit and size of that unit.
+pub struct Named {
+    name: &'static str,
+    symbol: &'static str,
+    unit: &'static str,
+    scale: f64,
+    decimals: usize,
+}
+
+impl Named {
+    fn of(method: Method, study: &Study) -> Self {
+        use crate::experiment::scenario::Xi1Rule;
+        let name = match method {
+            Method::Fcd => "Centrode",
+            Method::Jfd => "Forces",
+            Method::Or => "Either",
+            Method::And => "Both",
+        };
+        match (method, study.spec().scenario.detection.xi1_rule) {
+            (Method::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
+            (Method::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
+            _ => Self { name, symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
+        }
+    }
+}
+
+fn color(method: Method, theme: &Theme) -> Color32 {
+    match method {
+        Method::Fcd => theme.sensor,
+        Method::Jfd => theme.force,
+        Method::Or => theme.ink,
+        Method::And => theme.dim,
+    }
+}
+
+/// What follows from a study, computed once for each change.
+struct Derived {
+    version: u64,
+    tuning: Tuning,
+    curves: [Vec<Point>; 4],
+    own: [Option<usize>; 4],
+    verdict: Verdict,
+}
+
+/// What is kept between frames.
+#[derive(Default)]
+pub struct TuningState {
+    derived: Option<Derived>,
+    picture: Option<Picture>,
+}
+
+/// What the pictures are drawn from.
+struct View<'a> {
+    study: &'a Study,
+    cells: &'a Cells,
+    tuning: Tuning,
+    derived: &'a Derived,
+    theme: Theme,
+}
+
+impl View<'_> {
+    fn curve(&self) -> &[Point] {
+        &self.derived.curves[self.tuning.method as usize]
+    }
+
+    fn own(&self) -> Option<&Point> {
+        self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
+    }
+
+    /// Takes a level of the chosen method.
+    fn take(&self, level: usize, length: Option<u64>, out: &mut Vec<Command>) {
+        let Some(point) = self.curve().get(level) else { return };
+        out.push(Command::Take { method: self.tuning.method, threshold: point.threshold, length });
+    }
+}
+
+/// Shows the study.
+pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let Some((study, cells, version)) = inputs.tuner.shown() else { return };
+    let TuningState { derived, picture } = state;
+    if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
+        *derived = Some(derive(study, cells, version, inputs.tuning));
+    }
+    let Some(derived) = derived else { return };
+    let view = View { study, cells, tuning: inputs.tuning, derived, theme };
+
+    let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("tuning"));
+    inner.spacing_mut().item_spacing.y = 4.0;
+    let beside = rect.width() > BESIDE;
+    let mut all = |ui: &mut Ui| {
+        let top = ui.cursor().top();
+        choices(ui, &view, inputs, beside, out);
+        sentences(ui, &view, inputs, out);
+        ui.add_space(2.0);
+        let used = ui.cursor().top() - top;
+        let (columns, rows) = if beside { (2, 2) } else { (1, 4) };
+        let width = (ui.available_width() - GAP * (columns - 1) as f32) / columns as f32;
+        let room = (rect.height() - used - GAP * (rows - 1) as f32) / rows as f32;
+        let height = room.max(LEAST);
+        let (_, area) = ui.allocate_space(vec2(ui.available_width(), height * rows as f32 + GAP * (rows - 1) as f32));
+        let place = |k: usize| {
+            let (column, row) = (k % columns, k / columns);
+            let step = vec2((width + GAP) * column as f32, (height + GAP) * row as f32);
+            Rect::from_min_size(area.min + step, vec2(width, height))
+        };
+        curves::operating(ui, place(0), &view, out);
+        curves::delay(ui, place(1), &view, out);
+        delays::histogram(ui, place(2), &view, out);
+        lengths::map(ui, place(3), &view, version, picture, out);
+    };
+    ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| all(ui));
+}
+
+fn derive(study: &Study, cells: &Cells, version: u64, tuning: Tuning) -> Derived {
+    let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
+    Derived {
+        version,
+        tuning,
+        curves: Method::ALL.map(|method| study.curve(0, method)),
+        own: Method::ALL.map(|method| study.own(0, method)),
+        verdict: recommend_among(study, cells.lengths.iter().map(|(_, cell)| *cell), &wish),
+    }
+}
+
+/// Method, wish, repeats, and the button that stops.
+fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
+    let tuning = view.tuning;
+    let names = Method::ALL.map(|method| Named::of(method, view.study).name);
+    let parts: [(&str, Vec<&str>, usize, f32); 3] = [
+        ("Alarm by", names.to_vec(), tuning.method as usize, 280.0),
+        (
+            "False alarms, at most",
+            WISHES.map(|(_, name)| name).to_vec(),
+            WISHES.iter().position(|(wish, _)| *wish == tuning.wish).unwrap_or(WISHES.len()),
+            196.0,
+        ),
+        (
+            "Runs",
+            REPEATS.map(|(_, name)| name).to_vec(),
+            REPEATS.iter().position(|(repeats, _)| *repeats == tuning.repeats).unwrap_or(REPEATS.len()),
+            138.0,
+        ),
+    ];
+    let whole = ui.available_width();
+    let (mut row, mut x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
+    for (k, (label, options, chosen, wide)) in parts.into_iter().enumerate() {
+        let head = width(ui, label, fonts::regular(12.0)) + 8.0;
+        let wide = if beside { wide } else { (whole - head).min(wide) };
+        if x > 0.0 && x + head + wide > whole {
+            (row, x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
+        }
+        let left = row.left() + x;
+        let at = pos2(left, row.center().y);
+        crate::app::widgets::text::paint(
+            ui,
+            at,
+            egui::Align2::LEFT_CENTER,
+            label,
+            fonts::regular(12.0),
+            view.theme.dim,
+        );
+        let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
+        if let Some(picked) = segmented(ui, place, label, &options, chosen) {
+            out.push(Command::Tune(match k {
+                0 => Tuning { method: Method::ALL[picked], ..tuning },
+                1 => Tuning { wish: WISHES[picked].0, ..tuning },
+                _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
+            }));
+        }
+        x += head + wide + 16.0;
+    }
+    if let Some(left) = inputs.tuner.left() {
+        let (label, hint) = match inputs.tuner.is_held() {
+            true => ("Go on", format!("{} of {} runs", left.done, left.of)),
+            false => ("Stop", format!("{} of {} runs", left.done, left.of)),
+        };
+        let wide = 140.0 + width(ui, label, fonts::regular(12.5));
+        if x + wide > whole {
+            (row, x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
+        }
+        let place = Rect::from_min_size(pos2(row.left() + x, row.top()), vec2(66.0, 28.0));
+        if button(ui, place, label, &view.theme) {
+            out.push(Command::HoldStudy(!inputs.tuner.is_held()));
+        }
+        let at = pos2(place.right() + 8.0, row.center().y);
+        crate::app::widgets::text::paint(
+            ui,
+            at,
+            egui::Align2::LEFT_CENTER,
+            &hint,
+            fonts::regular(12.0),
+            view.theme.dim,
+        );
+    }
+}
+
+fn button(ui: &mut Ui, rect: Rect, label: &str, theme: &Theme) -> bool {
+    let id = ui.make_persistent_id(("button", label));
+    let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
+    let warm = if response.hovered() { 0.08 } else { 0.0 };
+    let edge = if response.has_focus() { theme.accent } else { theme.faint };
+    let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
+    ui.painter().rect(rect, 7.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+    let font = fonts::strong(12.5);
+    crate::app::widgets::text::paint(ui, rect.center(), egui::Align2::CENTER_CENTER, label, font, theme.accent);
+    response.clicked()
+}
+
+/// What is set now, and what should be.
+fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let now = words::now(view);
+    ui.add(Label::new(rich(&now, 13.0, view.theme.ink)).wrap());
+    let (advice, take) = words::advice(view);
+    let done = inputs.tuner.left().is_none();
+    let advice = if done { advice } else { format!("So far: {advice}") };
+    ui.horizontal_top(|ui| {
+        let mut text = rich(&advice, 13.0, if take.is_some() { view.theme.ink } else { view.theme.dim });
+        let room = if take.is_some() { 70.0 } else { 0.0 };
+        text.wrap.max_width = (ui.available_width() - room).max(80.0);
+        let height = ui.painter().layout_job(text.clone()).size().y.max(24.0);
+        let wide = ui.painter().layout_job(text.clone()).size().x;
+        let (_, place) = ui.allocate_space(vec2(wide, height));
+        let mut said = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("advice"));
+        said.add(Label::new(text).wrap());
+        if let Some((level, length)) = take {
+            let at = Rect::from_min_size(pos2(place.right() + 8.0, place.top() - 3.0), vec2(60.0, 24.0));
+            if button(ui, at, "Take it", &view.theme) {
+                view.take(level, Some(length), out);
+            }
+        }
+    });
+}
+
+/// A title above a picture.
+fn title(ui: &Ui, rect: Rect, text: &str, theme: &Theme) {
+    let galley = ui.painter().layout_job(job(text, 13.0, theme.ink));
+    ui.painter().galley(rect.min + vec2(4.0, 0.0), galley, theme.ink);
+}

@@ -1,0 +1,168 @@
+//! Filter length by threshold: how late contact is found, where false alarms are rare enough.
+
+use super::{Named, View, title};
+use crate::app::command::Command;
+use crate::app::fonts;
+use crate::app::notation::{self, job, number};
+use crate::app::plots::{Axis, Steps};
+use crate::app::tuner::LATE;
+use crate::scene::colormap::colormap;
+use crate::study::tuning::Study;
+use crate::study::tuning::recommend::Verdict;
+use egui::{
+    Align2, Color32, ColorImage, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui,
+    WidgetInfo, pos2, vec2,
+};
+
+/// The map as an image, kept while it stays the same.
+pub struct Picture {
+    key: (u64, u64, usize),
+    texture: TextureHandle,
+    /// The thresholds drawn, as shown: evenly spaced rows from `step` up.
+    rows: usize,
+    step: f64,
+}
+
+/// Width of the colour bar with its labels.
+const BAR: f32 = 44.0;
+/// At least so many rows are shown.
+const ROWS: usize = 20;
+
+/// Shows the map; a click or a drag takes threshold and filter length.
+pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Option<Picture>, out: &mut Vec<Command>) {
+    let (theme, method) = (&view.theme, view.tuning.method);
+    let named = Named::of(method, view.study);
+    let heading = "Median delay by filter length and threshold";
+    title(ui, rect, heading, theme);
+    let key = (version, view.tuning.wish.to_bits(), method as usize);
+    if kept.as_ref().is_none_or(|picture| picture.key != key) {
+        *kept = Some(paint(ui, view, key, &named));
+    }
+    let (Some(picture), lengths) = (kept, &view.cells.lengths) else { return };
+    let data = Rect::from_min_max(rect.min + vec2(50.0, 34.0), rect.max - vec2(BAR + 10.0, 38.0));
+    let data = Rect::from_min_size(data.min, data.size().max(vec2(60.0, 40.0)));
+    let painter = ui.painter().clone();
+    painter.rect_filled(data, 0.0, theme.raised);
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    painter.image(picture.texture.id(), data, whole, Color32::WHITE);
+    painter.rect_stroke(data, 0.0, Stroke::new(1.0, theme.dim), StrokeKind::Middle);
+    // Rows are centred on their thresholds.
+    let y = Axis::new([0.5 * picture.step, (picture.rows as f64 + 0.5) * picture.step], [data.bottom(), data.top()]);
+    let column = data.width() / lengths.len() as f32;
+    let x = |k: usize| data.left() + column * (k as f32 + 0.5);
+    for tick in y.ticks(30.0, Steps::Decimal) {
+        let at = pos2(data.left() - 6.0, y.at(tick.value));
+        painter.text(at, Align2::RIGHT_CENTER, tick.text, fonts::regular(11.0), theme.dim);
+    }
+    for (k, (length, _)) in lengths.iter().enumerate() {
+        // Every other one where they would touch.
+        if column > 27.0 || k % 2 == 1 {
+            let at = pos2(x(k), data.bottom() + 4.0);
+            painter.text(at, Align2::CENTER_TOP, length.to_string(), fonts::regular(11.0), theme.dim);
+        }
+    }
+    let name = painter.layout_job(job("Filter length N", 12.0, theme.ink));
+    painter.galley(pos2(data.center().x - 0.5 * name.size().x, data.bottom() + 18.0), name, theme.ink);
+    let unit = if named.unit.is_empty() { named.symbol.into() } else { format!("{} ({})", named.symbol, named.unit) };
+    let name = painter.layout_job(job(&unit, 12.0, theme.ink));
+    painter.galley(pos2(rect.left() + 4.0, data.top() - 17.0), name, theme.ink);
+    let hint = format!("grey: more than {} % alarm, or found too late", super::words::percent(view.tuning.wish));
+    if rect.width() > 330.0 {
+        let at = pos2(data.right(), data.top() - 4.0);
+        painter.text(at, Align2::RIGHT_BOTTOM, hint, fonts::regular(11.0), theme.dim);
+    }
+    bar(ui, data, view);
+
+    let clip = painter.with_clip_rect(data.expand(8.0).intersect(painter.clip_rect()));
+    let place = |length: u64, threshold: f64| {
+        let k = lengths.iter().position(|(other, _)| *other == length)?;
+        Some(pos2(x(k), y.at(threshold * named.scale)))
+    };
+    if let Verdict::Take { cell, point, .. } = &view.derived.verdict
+        && let Some(at) = place(view.study.cells()[*cell].scenario.filter.length, point.threshold)
+    {
+        clip.circle_stroke(at, 7.5, Stroke::new(4.0, Color32::from_black_alpha(140)));
+        clip.circle_stroke(at, 7.5, Stroke::new(2.2, Color32::WHITE));
+    }
+    let own = view.own().and_then(|point| place(view.study.cells()[0].scenario.filter.length, point.threshold));
+    if let Some(at) = own {
+        clip.circle(at, 5.0, theme.detection, Stroke::new(1.5, Color32::WHITE));
+    }
+
+    let response = ui.interact(data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
+    let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
+    response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, heading));
+    let under = |at: egui::Pos2| {
+        let k = (((at.x - data.left()) / column) as usize).min(lengths.len() - 1);
+        let wanted = y.value(at.y) / named.scale;
+        // Levels that are drawn: the evenly spaced ones.
+        let row = ((wanted * named.scale / picture.step).round() as usize).clamp(1, picture.rows);
+        let threshold = row as f64 * picture.step / named.scale;
+        (k, nearest(view.study.levels(lengths[k].1, method), threshold))
+    };
+    if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked() || response.dragged()) {
+        let (k, level) = under(at);
+        let threshold = view.study.levels(lengths[k].1, method)[level];
+        out.push(Command::Take { method, threshold, length: Some(lengths[k].0) });
+    } else if let Some(at) = response.hover_pos() {
+        let (k, level) = under(at);
+        let mut lines = super::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);
+        lines.insert(1, job(&format!("N = {}", lengths[k].0), 11.5, theme.ink));
+        notation::note(&painter, theme, at, data, lines);
+    }
+}
+
+/// The place of the level nearest to a threshold.
+fn nearest(levels: &[f64], threshold: f64) -> usize {
+    let far = |level: usize| (levels[level] - threshold).abs();
+    (0..levels.len()).min_by(|&a, &b| far(a).total_cmp(&far(b))).unwrap_or(0)
+}
+
+/// Delay as a share of the largest in time.
+fn delay(study: &Study, cell: usize, view: &View<'_>, threshold: f64) -> Option<f64> {
+    let method = view.tuning.method;
+    let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
+    let quiet = point.false_alarms.rate.of > 0 && point.false_alarms.rate.high <= view.tuning.wish;
+    point.detection.map(|seen| seen.median / LATE).filter(|delay| quiet && !delay.is_nan())
+}
+
+fn paint(ui: &Ui, view: &View<'_>, key: (u64, u64, usize), named: &Named) -> Picture {
+    let study = view.study;
+    let cells = &view.cells.lengths;
+    let step = study.levels(0, view.tuning.method).first().copied().unwrap_or(1.0);
+    // The first level is one step, unless it is the scenario's own.
+    let step =
+        study.levels(0, view.tuning.method).windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(step, f64::max);
+    let matters = |row: usize| cells.iter().any(|(_, cell)| delay(study, *cell, view, row as f64 * step).is_some());
+    let last = (1..=200).rev().find(|&row| matters(row)).unwrap_or(0);
+    let own = view.own().map_or(0, |point| (point.threshold / step).ceil() as usize);
+    let rows = (last + last / 8).max(own + own / 8).clamp(ROWS, 200);
+    let grey = Color32::TRANSPARENT;
+    let pixels = (1..=rows).rev().flat_map(|row| cells.iter().map(move |(_, cell)| (row, *cell)));
+    let pixels = pixels.map(|(row, cell)| {
+        delay(study, cell, view, row as f64 * step).map_or(grey, |share| {
+            let [r, g, b, _] = colormap(1.0 - share).to_bytes();
+            Color32::from_rgb(r, g, b)
+        })
+    });
+    let image = ColorImage::new([cells.len(), rows], pixels.collect());
+    let texture = ui.ctx().load_texture("filter lengths", image, TextureOptions::NEAREST);
+    Picture { key, texture, rows, step: step * named.scale }
+}
+
+/// What the colours mean.
+fn bar(ui: &Ui, data: Rect, view: &View<'_>) {
+    let painter = ui.painter();
+    let bar = Rect::from_min_max(pos2(data.right() + 10.0, data.top()), pos2(data.right() + 19.0, data.bottom()));
+    let steps = 48;
+    for k in 0..steps {
+        let [from, to] = [k, k + 1].map(|k| bar.bottom() - bar.height() * k as f32 / steps as f32);
+        let [r, g, b, _] = colormap(1.0 - f64::from(k) / f64::from(steps - 1)).to_bytes();
+        painter.rect_filled(Rect::from_x_y_ranges(bar.x_range(), to..=from + 0.5), 0.0, Color32::from_rgb(r, g, b));
+    }
+    for share in [0.0, 0.5, 1.0] {
+        let at = pos2(bar.right() + 4.0, bar.bottom() - bar.height() * share as f32);
+        let text = format!("{} s", number(share * LATE, 1));
+        painter.text(at, Align2::LEFT_CENTER, text, fonts::regular(10.5), view.theme.dim);
+    }
+}

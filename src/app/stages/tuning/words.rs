@@ -1,0 +1,133 @@
+//! What the study says, in sentences.
+
+use super::{Named, View};
+use crate::app::notation::number;
+use crate::experiment::scenario::Place;
+use crate::study::tuning::rate::Rate;
+use crate::study::tuning::recommend::Verdict;
+use crate::study::tuning::tally::Detection;
+
+/// A share in %, with as many digits as matter.
+pub fn percent(share: f64) -> String {
+    let decimals = if share > 0.0 && share < 0.0995 { 1 } else { 0 };
+    number(share * 100.0, decimals)
+}
+
+/// `1.0 to 8.5 %`.
+pub fn interval(rate: &Rate) -> String {
+    format!("{} to {} %", percent(rate.low), percent(rate.high))
+}
+
+fn place(view: &View<'_>) -> String {
+    match view.study.cells()[0].scenario.contact.place {
+        Place::Nowhere => "nothing".into(),
+        Place::Disk(disk) => format!("disk {disk}"),
+        Place::ArcLength(s) => format!("{:.1} mm", s * 1e3),
+    }
+}
+
+/// What the thresholds that are set achieve.
+pub fn now(view: &View<'_>) -> String {
+    let named = Named::of(view.tuning.method, view.study);
+    let Some(point) = view.own() else {
+        return format!("{} is off: nothing is found.", named.symbol);
+    };
+    let setting = setting(&named, point.threshold);
+    let alarms = &point.false_alarms.rate;
+    if alarms.of == 0 {
+        return "The first runs are being made …".into();
+    }
+    let mut text = format!(
+        "Now, {setting}, N = {}: of {} free runs {} alarm{} ({}).",
+        view.study.cells()[0].scenario.filter.length,
+        alarms.of,
+        if alarms.count == 0 { "none".into() } else { alarms.count.to_string() },
+        if alarms.count == 1 { "s" } else { "" },
+        interval(alarms),
+    );
+    match (point.detection, view.study.contact_time(0)) {
+        (Some(seen), Some(_)) => text += &found(&seen, &place(view)),
+        (Some(_), None) => text += " The beam is never touched.",
+        (None, _) => text += " There is no contact to find.",
+    }
+    text
+}
+
+fn found(seen: &Detection, place: &str) -> String {
+    let Rate { count, of, .. } = seen.detected;
+    if seen.early.of == 0 {
+        return String::new();
+    }
+    if of == 0 {
+        return format!(" Every run alarms before it touches {place}.");
+    }
+    let mut text = match (count, seen.median.is_nan()) {
+        (0, _) => format!(" Contact on {place} is never found in time, within {} s.", super::super::super::tuner::LATE),
+        (_, true) => format!(
+            " Contact on {place} is found in {count} of {of} only, {} s after touch on average.",
+            number(seen.mean, 2)
+        ),
+        (_, false) if count == of => format!(" Contact on {place} is found {} s after touch", number(seen.median, 2)),
+        (_, false) => {
+            format!(" Contact on {place} is found in {count} of {of}, {} s after touch", number(seen.median, 2))
+        }
+    };
+    if !seen.median.is_nan() {
+        text += " (median";
+        if !seen.ninety.is_nan() {
+            text += &format!("; 90 % within {} s", number(seen.ninety, 2));
+        }
+        text += ").";
+    }
+    if seen.early.count > 0 {
+        text += &format!(" {} alarmed before touch.", seen.early.count);
+    }
+    text
+}
+
+fn setting(named: &Named, threshold: f64) -> String {
+    format!("{} = {} {}", named.symbol, digits(named, threshold), named.unit).trim_end().to_owned()
+}
+
+/// A threshold with as many digits as it has, no fewer than usual.
+pub fn digits(named: &Named, threshold: f64) -> String {
+    let shown = threshold * named.scale;
+    let decimals = (named.decimals..6).find(|&decimals| {
+        let power = 10f64.powi(decimals as i32);
+        ((shown * power).round() / power - shown).abs() < 1e-9 * shown.abs()
+    });
+    number(shown, decimals.unwrap_or(6))
+}
+
+/// What to take, and its level and filter length; or why nothing.
+pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
+    let wish = percent(view.tuning.wish);
+    let named = Named::of(view.tuning.method, view.study);
+    let text = match &view.derived.verdict {
+        Verdict::Take { cell, level, point } => {
+            let length = view.study.cells()[*cell].scenario.filter.length;
+            let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
+            let text = format!(
+                "Soonest with at most {wish} % false alarms: {}, N = {length} finds it {} s after touch, with {} of {} free runs alarming ({}).",
+                setting(&named, point.threshold),
+                number(delay, 2),
+                point.false_alarms.rate.count,
+                point.false_alarms.rate.of,
+                interval(&point.false_alarms.rate),
+            );
+            return (text, Some((*level, length)));
+        }
+        Verdict::TooFewRuns { needed } => format!(
+            "None reaches {wish} %: with so few runs not even silence would show it. At least {needed} are needed."
+        ),
+        Verdict::NoneQuiet { lowest } => {
+            format!("None reaches {wish} %: the quietest threshold leaves up to {} % false alarms.", percent(*lowest))
+        }
+        Verdict::NoneFinds { best } => format!(
+            "None reaches {wish} % and finds half of the contacts in time; of those so quiet the best finds {} %.",
+            percent(*best)
+        ),
+        Verdict::NoContact => "No contact, so no delay to shorten: choose one to be advised.".into(),
+    };
+    (text, None)
+}
