@@ -1,7 +1,7 @@
 //! Two axes with their grid, ticks and names.
 
 use crate::app::notation::job;
-use crate::app::plots::{Axis, Steps};
+use crate::app::plots::{Axis, Steps, Tick};
 use crate::app::theme::Theme;
 use egui::{Align2, FontId, Painter, Pos2, Rect, Stroke, pos2, vec2};
 
@@ -56,24 +56,30 @@ impl Chart {
 
     /// Paints grid, ticks and names.
     pub fn frame(&self, painter: &Painter, theme: &Theme, x: &Side<'_>, y: &Side<'_>) {
+        let ticks = [self.x.ticks(64.0, x.steps), self.y.ticks(38.0, y.steps)];
+        self.frame_with(painter, theme, [x.name, y.name], ticks);
+    }
+
+    /// The same with ticks that are given.
+    pub fn frame_with(&self, painter: &Painter, theme: &Theme, names: [&str; 2], [x, y]: [Vec<Tick>; 2]) {
         let data = self.data;
         let font = FontId::proportional(TICK);
         let grid = Stroke::new(1.0, theme.faint.gamma_multiply(0.7));
-        for tick in self.x.ticks(64.0, x.steps) {
+        for tick in x {
             let at = painter.round_to_pixel_center(self.x.at(tick.value));
             painter.vline(at, data.y_range(), grid);
             painter.text(pos2(at, data.bottom() + 4.0), Align2::CENTER_TOP, tick.text, font.clone(), theme.dim);
         }
-        for tick in self.y.ticks(38.0, y.steps) {
+        for tick in y {
             let at = painter.round_to_pixel_center(self.y.at(tick.value));
             painter.hline(data.x_range(), at, grid);
             painter.text(pos2(data.left() - 6.0, at), Align2::RIGHT_CENTER, tick.text, font.clone(), theme.dim);
         }
         painter.rect_stroke(data, 0.0, Stroke::new(1.0, theme.dim), egui::StrokeKind::Middle);
-        let name = painter.layout_job(job(x.name, NAME, theme.ink));
+        let name = painter.layout_job(job(names[0], NAME, theme.ink));
         let left = (data.center().x - 0.5 * name.size().x).max(data.left());
         painter.galley(pos2(left, data.bottom() + 20.0), name, theme.ink);
-        let name = painter.layout_job(job(y.name, NAME, theme.ink));
+        let name = painter.layout_job(job(names[1], NAME, theme.ink));
         painter.galley(pos2(data.left() - LEFT + 4.0, data.top() - TOP), name, theme.ink);
     }
 }

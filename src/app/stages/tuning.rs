@@ -10,16 +10,17 @@ mod words;
 use super::Inputs;
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::notation::job;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::tuner::Cells;
 use crate::app::widgets::segmented::segmented;
-use crate::app::widgets::text::{rich, width};
+use crate::app::widgets::text::{paint, rich, width};
 use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use crate::study::tuning::watch::Method;
 use crate::study::tuning::{Point, Study};
-use egui::{Color32, CursorIcon, Label, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
+use egui::{
+    Align2, Color32, CursorIcon, Label, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+};
 use lengths::Picture;
 
 /// From this width on the pictures stand two by two.
@@ -185,14 +186,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
         }
         let left = row.left() + x;
         let at = pos2(left, row.center().y);
-        crate::app::widgets::text::paint(
-            ui,
-            at,
-            egui::Align2::LEFT_CENTER,
-            label,
-            fonts::regular(12.0),
-            view.theme.dim,
-        );
+        paint(ui, at, Align2::LEFT_CENTER, label, fonts::regular(12.0), view.theme.dim);
         let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
         if let Some(picked) = segmented(ui, place, label, &options, chosen) {
             out.push(Command::Tune(match k {
@@ -217,14 +211,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
             out.push(Command::HoldStudy(!inputs.tuner.is_held()));
         }
         let at = pos2(place.right() + 8.0, row.center().y);
-        crate::app::widgets::text::paint(
-            ui,
-            at,
-            egui::Align2::LEFT_CENTER,
-            &hint,
-            fonts::regular(12.0),
-            view.theme.dim,
-        );
+        paint(ui, at, Align2::LEFT_CENTER, &hint, fonts::regular(12.0), view.theme.dim);
     }
 }
 
@@ -237,7 +224,7 @@ fn button(ui: &mut Ui, rect: Rect, label: &str, theme: &Theme) -> bool {
     let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
     ui.painter().rect(rect, 7.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
     let font = fonts::strong(12.5);
-    crate::app::widgets::text::paint(ui, rect.center(), egui::Align2::CENTER_CENTER, label, font, theme.accent);
+    paint(ui, rect.center(), Align2::CENTER_CENTER, label, font, theme.accent);
     response.clicked()
 }
 
@@ -268,6 +255,6 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
 
 /// A title above a picture.
 fn title(ui: &Ui, rect: Rect, text: &str, theme: &Theme) {
-    let galley = ui.painter().layout_job(job(text, 13.0, theme.ink));
-    ui.painter().galley(rect.min + vec2(4.0, 0.0), galley, theme.ink);
+    let at = rect.min + vec2(4.0, 0.0);
+    paint(ui, at, Align2::LEFT_TOP, text, fonts::strong(12.5), theme.ink);
 }

@@ -1,11 +1,14 @@
 //! Two curves over all thresholds, each with its band: contacts found, and delay, against false alarms.
+//!
+//! Shares lie on an arcsine scale: both ends, where thresholds are chosen, are spread, and intervals from equally many
+//! runs are about equally wide everywhere.
 
 use super::words::{digits, percent};
 use super::{Named, View, color, title};
 use crate::app::command::Command;
 use crate::app::notation::{self, job, number};
-use crate::app::plots::Steps;
-use crate::app::stages::chart::{Chart, Side};
+use crate::app::plots::{Steps, Tick};
+use crate::app::stages::chart::Chart;
 use crate::app::theme::Theme;
 use crate::app::tuner::LATE;
 use crate::study::tuning::Point;
@@ -17,13 +20,15 @@ use egui::{Color32, CursorIcon, Mesh, Painter, Pos2, Rect, Role, Sense, Shape, S
 struct Kind {
     title: &'static str,
     name: &'static str,
+    /// Whether it is a share.
+    share: bool,
     range: [f64; 2],
     value: fn(&Point) -> Option<[f64; 3]>,
 }
 
 fn detected(point: &Point) -> Option<[f64; 3]> {
     let rate = point.detection?.detected;
-    (rate.of > 0).then_some([rate.low, rate.rate, rate.high].map(|share| share * 100.0))
+    (rate.of > 0).then_some([rate.low, rate.rate, rate.high].map(stretched))
 }
 
 fn delay_of(point: &Point) -> Option<[f64; 3]> {
@@ -32,38 +37,50 @@ fn delay_of(point: &Point) -> Option<[f64; 3]> {
     (!seen.median.is_nan()).then_some([open(seen.median_low), seen.median, open(seen.median_high)])
 }
 
+/// Where a share lies on its axis, from 0 to 1.
+fn stretched(share: f64) -> f64 {
+    share.clamp(0.0, 1.0).sqrt().asin() / std::f64::consts::FRAC_PI_2
+}
+
+/// Ticks of an axis of shares, at least `spacing` points apart.
+fn shares(length: f32, spacing: f32) -> Vec<Tick> {
+    let mut ticks: Vec<Tick> = Vec::new();
+    // The ends and the middle matter most.
+    for percent in [0, 100, 50, 5, 95, 20, 80, 1, 99, 10, 90, 35, 65] {
+        let value = stretched(f64::from(percent) / 100.0);
+        let apart = |tick: &Tick| (tick.value - value).abs() as f32 * length >= spacing;
+        if ticks.iter().all(apart) {
+            ticks.push(Tick { value, text: percent.to_string() });
+        }
+    }
+    ticks
+}
+
 /// Contacts found against false alarms: the operating characteristic.
 pub fn operating(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    let kind = Kind {
-        title: "Contacts found against false alarms",
-        name: "Contacts found (%)",
-        range: [-3.0, 103.0],
-        value: detected,
-    };
+    let title = "Contacts found against false alarms";
+    let kind = Kind { title, name: "Found in time (%)", share: true, range: [-0.04, 1.04], value: detected };
     curve(ui, rect, &kind, view, out);
 }
 
 /// Median delay against false alarms.
 pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    let kind = Kind {
-        title: "Delay against false alarms",
-        name: "Median delay (s)",
-        range: [0.0, LATE * 1.03],
-        value: delay_of,
-    };
+    let title = "Delay against false alarms";
+    let kind = Kind { title, name: "Median delay (s)", share: false, range: [0.0, LATE * 1.04], value: delay_of };
     curve(ui, rect, &kind, view, out);
 }
 
 fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Command>) {
     let theme = &view.theme;
     title(ui, rect, kind.title, theme);
-    let place = Rect::from_min_max(rect.min + vec2(0.0, 16.0), rect.max);
-    let chart = Chart::new(place, [-3.0, 103.0], kind.range, false);
+    let place = Rect::from_min_max(rect.min + vec2(0.0, 20.0), rect.max);
+    let chart = Chart::new(place, [-0.04, 1.04], kind.range, false);
     let painter = ui.painter().clone();
-    let side = |name| Side { name, steps: Steps::Decimal };
-    chart.frame(&painter, theme, &side("Free runs that alarm (%)"), &side(kind.name));
-    let inside = painter.with_clip_rect(chart.data.expand(1.0).intersect(painter.clip_rect()));
-    let wish = chart.x.at(view.tuning.wish * 100.0);
+    let size = chart.data.size();
+    let rows = if kind.share { shares(size.y, 15.0) } else { chart.y.ticks(28.0, Steps::Decimal) };
+    chart.frame_with(&painter, theme, ["Free runs that alarm (%)", kind.name], [shares(size.x, 26.0), rows]);
+    let inside = painter.with_clip_rect(chart.data.expand(8.0).intersect(painter.clip_rect()));
+    let wish = chart.x.at(stretched(view.tuning.wish));
     let line = [pos2(wish, chart.data.top()), pos2(wish, chart.data.bottom())];
     inside.extend(Shape::dashed_line(&line, Stroke::new(1.0, theme.accent), 4.0, 4.0));
     legend(ui, rect, view);
@@ -83,7 +100,7 @@ fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Co
         );
     }
     let at = |point: &Point| {
-        (kind.value)(point).map(|[_, value, _]| chart.at([point.false_alarms.rate.rate * 100.0, value]))
+        (kind.value)(point).map(|[_, value, _]| chart.at([stretched(point.false_alarms.rate.rate), value]))
     };
     if let Verdict::Take { cell, level, .. } = &view.derived.verdict
         && let Some(at) = at(&view.study.point(*cell, chosen, *level))
@@ -110,7 +127,12 @@ fn legend(ui: &Ui, rect: Rect, view: &View<'_>) {
         ui.painter().galley(pos2(right - wide, rect.top() + 1.0), galley, ink);
         let y = rect.top() + 8.0;
         let line = [pos2(right - wide - 18.0, y), pos2(right - wide - 5.0, y)];
-        ui.painter().line_segment(line, Stroke::new(2.0, color(method, &view.theme)));
+        let stroke = Stroke::new(2.0, color(method, &view.theme));
+        if method == Method::And {
+            ui.painter().extend(Shape::dashed_line(&line, stroke, 4.0, 3.0));
+        } else {
+            ui.painter().line_segment(line, stroke);
+        }
         right -= wide + 28.0;
     }
 }
@@ -129,12 +151,9 @@ fn one(painter: &Painter, chart: &Chart, kind: &Kind, points: &[Point], color: C
         };
         let alarms = point.false_alarms.rate;
         // More alarms go with more found and with less delay: the corners of both intervals that are farthest from the curve.
-        let [below, above] = if kind.range[1] > 2.0 {
-            [[alarms.high * 100.0, low], [alarms.low * 100.0, high]]
-        } else {
-            [[alarms.low * 100.0, low], [alarms.high * 100.0, high]]
-        };
-        let at = chart.at([alarms.rate * 100.0, value]);
+        let [few, many] = [alarms.low, alarms.high].map(stretched);
+        let [below, above] = if kind.share { [[many, low], [few, high]] } else { [[few, low], [many, high]] };
+        let at = chart.at([stretched(alarms.rate), value]);
         if line.last() == Some(&at) && last.is_some() {
             continue;
         }

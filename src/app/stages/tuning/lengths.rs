@@ -7,7 +7,6 @@ use crate::app::notation::{self, job, number};
 use crate::app::plots::{Axis, Steps};
 use crate::app::tuner::LATE;
 use crate::scene::colormap::colormap;
-use crate::study::tuning::Study;
 use crate::study::tuning::recommend::Verdict;
 use egui::{
     Align2, Color32, ColorImage, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui,
@@ -25,8 +24,10 @@ pub struct Picture {
 
 /// Width of the colour bar with its labels.
 const BAR: f32 = 44.0;
-/// At least so many rows are shown.
-const ROWS: usize = 20;
+/// So many rows are shown, at least and at most: the evenly spaced thresholds.
+const ROWS: [usize; 2] = [20, 200];
+/// How much of its colour a place keeps where there are too many false alarms.
+const FADED: f32 = 0.28;
 
 /// Shows the map; a click or a drag takes threshold and filter length.
 pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Option<Picture>, out: &mut Vec<Command>) {
@@ -39,7 +40,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
         *kept = Some(paint(ui, view, key, &named));
     }
     let (Some(picture), lengths) = (kept, &view.cells.lengths) else { return };
-    let data = Rect::from_min_max(rect.min + vec2(50.0, 34.0), rect.max - vec2(BAR + 10.0, 38.0));
+    let data = Rect::from_min_max(rect.min + vec2(50.0, 38.0), rect.max - vec2(BAR + 10.0, 38.0));
     let data = Rect::from_min_size(data.min, data.size().max(vec2(60.0, 40.0)));
     let painter = ui.painter().clone();
     painter.rect_filled(data, 0.0, theme.raised);
@@ -50,7 +51,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
     let y = Axis::new([0.5 * picture.step, (picture.rows as f64 + 0.5) * picture.step], [data.bottom(), data.top()]);
     let column = data.width() / lengths.len() as f32;
     let x = |k: usize| data.left() + column * (k as f32 + 0.5);
-    for tick in y.ticks(30.0, Steps::Decimal) {
+    for tick in y.ticks(20.0, Steps::Decimal) {
         let at = pos2(data.left() - 6.0, y.at(tick.value));
         painter.text(at, Align2::RIGHT_CENTER, tick.text, fonts::regular(11.0), theme.dim);
     }
@@ -66,8 +67,8 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
     let unit = if named.unit.is_empty() { named.symbol.into() } else { format!("{} ({})", named.symbol, named.unit) };
     let name = painter.layout_job(job(&unit, 12.0, theme.ink));
     painter.galley(pos2(rect.left() + 4.0, data.top() - 17.0), name, theme.ink);
-    let hint = format!("grey: more than {} % alarm, or found too late", super::words::percent(view.tuning.wish));
-    if rect.width() > 330.0 {
+    let hint = format!("faded: more than {} % may alarm", super::words::wished(view.tuning.wish));
+    if rect.width() > 300.0 {
         let at = pos2(data.right(), data.top() - 4.0);
         painter.text(at, Align2::RIGHT_BOTTOM, hint, fonts::regular(11.0), theme.dim);
     }
@@ -118,36 +119,36 @@ fn nearest(levels: &[f64], threshold: f64) -> usize {
     (0..levels.len()).min_by(|&a, &b| far(a).total_cmp(&far(b))).unwrap_or(0)
 }
 
-/// Delay as a share of the largest in time.
-fn delay(study: &Study, cell: usize, view: &View<'_>, threshold: f64) -> Option<f64> {
-    let method = view.tuning.method;
+/// Delay as a share of the largest in time, and whether false alarms are as rare as wished.
+fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
+    let (study, method) = (view.study, view.tuning.method);
     let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
-    let quiet = point.false_alarms.rate.of > 0 && point.false_alarms.rate.high <= view.tuning.wish;
-    point.detection.map(|seen| seen.median / LATE).filter(|delay| quiet && !delay.is_nan())
+    let quiet = point.false_alarms.rate.high <= view.tuning.wish;
+    let delay = point.detection.map(|seen| seen.median / LATE).filter(|delay| !delay.is_nan());
+    delay.filter(|_| point.false_alarms.rate.of > 0).map(|delay| (delay, quiet))
 }
 
 fn paint(ui: &Ui, view: &View<'_>, key: (u64, u64, usize), named: &Named) -> Picture {
-    let study = view.study;
     let cells = &view.cells.lengths;
-    let step = study.levels(0, view.tuning.method).first().copied().unwrap_or(1.0);
-    // The first level is one step, unless it is the scenario's own.
-    let step =
-        study.levels(0, view.tuning.method).windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(step, f64::max);
-    let matters = |row: usize| cells.iter().any(|(_, cell)| delay(study, *cell, view, row as f64 * step).is_some());
-    let last = (1..=200).rev().find(|&row| matters(row)).unwrap_or(0);
+    // The steps are even, but for the coarse ones and the scenario's own.
+    let levels = view.study.levels(0, view.tuning.method);
+    let step = levels.windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(0.0, f64::max);
+    let known = |row: usize| cells.iter().map(move |(_, cell)| delay(view, *cell, row as f64 * step));
+    let rows: Vec<Vec<Option<(f64, bool)>>> = (1..=ROWS[1]).map(|row| known(row).collect()).collect();
+    let last = rows.iter().rposition(|row| row.iter().any(Option::is_some)).unwrap_or(0);
     let own = view.own().map_or(0, |point| (point.threshold / step).ceil() as usize);
-    let rows = (last + last / 8).max(own + own / 8).clamp(ROWS, 200);
-    let grey = Color32::TRANSPARENT;
-    let pixels = (1..=rows).rev().flat_map(|row| cells.iter().map(move |(_, cell)| (row, *cell)));
-    let pixels = pixels.map(|(row, cell)| {
-        delay(study, cell, view, row as f64 * step).map_or(grey, |share| {
+    let count = (last + last / 8).max(own + own / 8).clamp(ROWS[0], ROWS[1]);
+    let ground = Color32::TRANSPARENT;
+    let pixels = rows[..count].iter().rev().flatten().map(|known| {
+        known.map_or(ground, |(share, quiet)| {
             let [r, g, b, _] = colormap(1.0 - share).to_bytes();
-            Color32::from_rgb(r, g, b)
+            let color = Color32::from_rgb(r, g, b);
+            if quiet { color } else { view.theme.raised.lerp_to_gamma(color, FADED) }
         })
     });
-    let image = ColorImage::new([cells.len(), rows], pixels.collect());
+    let image = ColorImage::new([cells.len(), count], pixels.collect());
     let texture = ui.ctx().load_texture("filter lengths", image, TextureOptions::NEAREST);
-    Picture { key, texture, rows, step: step * named.scale }
+    Picture { key, texture, rows: count, step: step * named.scale }
 }
 
 /// What the colours mean.

@@ -2,6 +2,7 @@
 
 use super::{Named, View};
 use crate::app::notation::number;
+use crate::app::tuner::LATE;
 use crate::experiment::scenario::Place;
 use crate::study::tuning::rate::Rate;
 use crate::study::tuning::recommend::Verdict;
@@ -11,6 +12,11 @@ use crate::study::tuning::tally::Detection;
 pub fn percent(share: f64) -> String {
     let decimals = if share > 0.0 && share < 0.0995 { 1 } else { 0 };
     number(share * 100.0, decimals)
+}
+
+/// A share that was chosen, in %.
+pub fn wished(share: f64) -> String {
+    number(share * 100.0, 0)
 }
 
 /// `1.0 to 8.5 %`.
@@ -62,7 +68,7 @@ fn found(seen: &Detection, place: &str) -> String {
         return format!(" Every run alarms before it touches {place}.");
     }
     let mut text = match (count, seen.median.is_nan()) {
-        (0, _) => format!(" Contact on {place} is never found in time, within {} s.", super::super::super::tuner::LATE),
+        (0, _) => format!(" Contact on {place} is never found in time, within {} s.", LATE),
         (_, true) => format!(
             " Contact on {place} is found in {count} of {of} only, {} s after touch on average.",
             number(seen.mean, 2)
@@ -101,7 +107,7 @@ pub fn digits(named: &Named, threshold: f64) -> String {
 
 /// What to take, and its level and filter length; or why nothing.
 pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
-    let wish = percent(view.tuning.wish);
+    let wish = wished(view.tuning.wish);
     let named = Named::of(view.tuning.method, view.study);
     let text = match &view.derived.verdict {
         Verdict::Take { cell, level, point } => {
