@@ -4,7 +4,9 @@
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
 mod widgets;
+mod worker;
 
+use crate::app::tuner::Helper;
 use crate::app::{App, Host};
 use crate::experiment::{Scenario, simulate};
 use eframe::wgpu;
@@ -15,7 +17,7 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test }`.
+    /// How to start, an object `{ renderer, reducedMotion, test, worker }`.
     pub type Options;
     /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
     #[wasm_bindgen(method, getter)]
@@ -26,12 +28,18 @@ extern "C" {
     /// Opened by a test: keep the list of widgets and obey [`fail_on_purpose`].
     #[wasm_bindgen(method, getter)]
     fn test(this: &Options) -> bool;
+    /// Whether studies are made in a worker.
+    #[wasm_bindgen(method, getter)]
+    fn worker(this: &Options) -> bool;
 
     /// What the page wants to hear of.
     pub type Hooks;
     /// The state changed; `json` is `App::report`.
     #[wasm_bindgen(method)]
     fn report(this: &Hooks, json: &str);
+    /// A study is wanted from the worker (JSON), or none any more.
+    #[wasm_bindgen(method)]
+    fn study(this: &Hooks, request: Option<String>);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -43,6 +51,7 @@ extern "C" {
 thread_local! {
     static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
     static HOOKS: RefCell<Option<Hooks>> = const { RefCell::new(None) };
+    static TEST: Cell<bool> = const { Cell::new(false) };
     static FAIL: Cell<bool> = const { Cell::new(false) };
     static CONTEXT: RefCell<Option<egui::Context>> = const { RefCell::new(None) };
 }
@@ -72,7 +81,8 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         "webgl" => wgpu::Backends::GL,
         _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
     };
-    let host = Host { prefers_reduced_motion: options.reduced_motion() };
+    let helper = options.worker().then(|| Box::new(worker::Worker) as Box<dyn Helper>);
+    let host = Host { prefers_reduced_motion: options.reduced_motion(), helper };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
     let name_out = std::rc::Rc::clone(&name);
@@ -80,8 +90,9 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         if test {
             cc.egui_ctx.enable_accesskit();
             cc.egui_ctx.add_plugin(widgets::Collector);
-            CONTEXT.set(Some(cc.egui_ctx.clone()));
         }
+        CONTEXT.set(Some(cc.egui_ctx.clone()));
+        TEST.set(test);
         if let Some(state) = &cc.wgpu_render_state {
             name_out.set(watch(state));
         }
@@ -134,6 +145,15 @@ fn watch(state: &egui_wgpu::RenderState) -> &'static str {
     }
 }
 
+/// Asks for another frame.
+fn repaint() {
+    CONTEXT.with_borrow(|ctx| {
+        if let Some(ctx) = ctx {
+            ctx.request_repaint();
+        }
+    });
+}
+
 struct Shell {
     app: App,
     last_report: String,
@@ -160,12 +180,10 @@ pub fn widgets() -> String {
 /// Panics in the next frame, so that a test can see what a person would. Does nothing unless opened by a test.
 #[wasm_bindgen]
 pub fn fail_on_purpose() {
-    CONTEXT.with_borrow(|ctx| {
-        if let Some(ctx) = ctx {
-            FAIL.set(true);
-            ctx.request_repaint();
-        }
-    });
+    if TEST.get() {
+        FAIL.set(true);
+        repaint();
+    }
 }
 
 /// A hash of every channel of the run that this scenario (TOML) gives, to be compared with the native one.

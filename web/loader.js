@@ -3,6 +3,7 @@ import { download } from "./download.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { readQuery } from "./query.js";
+import { studies } from "./studies.js";
 
 const { settings, notices } = readQuery(location.search);
 let failed = false;
@@ -35,6 +36,8 @@ const hooks = {
   },
   panicked: (message) => fail(showFailure, message),
   lost: (message) => fail(showLost, message),
+  // Set once the program is there.
+  study: () => {},
 };
 
 /// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
@@ -57,6 +60,7 @@ async function startOnSome(core) {
       renderer,
       reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
       test: settings.test,
+      worker: settings.worker === "auto",
     };
     try {
       const used = await core.start(canvas, options, hooks);
@@ -78,6 +82,7 @@ async function main() {
   const core = await import("./centrode.js");
   const wasm = await download(new URL("./centrode_bg.wasm", import.meta.url), Number(script.dataset.wasmBytes), showProgress);
   await core.default({ module_or_path: wasm });
+  hooks.study = studies(core);
   if (settings.test) globalThis.centrode = core;
   if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());
 }

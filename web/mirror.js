@@ -20,11 +20,12 @@ function set(key, value) {
 }
 
 export const mirror = {
-  /// `{ state, time, detection_time, summary }` as `App::report` gives it.
-  report({ state, time, detection_time: detectionTime, summary }) {
+  /// `{ state, time, detection_time, summary, tuning }` as `App::report` gives it.
+  report({ state, time, detection_time: detectionTime, summary, tuning }) {
     set("state", state);
     set("time", time);
     set("detectionTime", detectionTime);
+    set("tuning", tuning && JSON.stringify(tuning));
     wanted = summary ?? "";
     // A live region that changes with every frame would never let a reader finish a sentence.
     if (pending === null) speak();

@@ -173,7 +173,8 @@ impl App {
         }
         let scenario = self.memo.run().plan.scenario();
         self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats);
-        if ui.ctx().current_pass_index() == 0 && self.tuner.work() {
+        let frame = ui.input(|input| input.stable_dt);
+        if ui.ctx().current_pass_index() == 0 && self.tuner.work(frame) {
             ui.ctx().request_repaint();
         }
     }

@@ -14,8 +14,10 @@ pub const LATE: f64 = 1.0;
 const LENGTHS: [u64; 10] = [50, 100, 150, 200, 300, 400, 500, 600, 800, 1000];
 /// The most disks whose detection times are compared.
 const DISKS: usize = 6;
-/// Runs, each about three milliseconds on the page, that are made in a frame when there is no helper.
-const PIECES: usize = 2;
+/// Runs, each about three milliseconds on the page, that are made in a frame when there is no helper: so many at
+/// least and at most, and between them a seventh of the time that a frame takes anyway.
+const PIECES: [usize; 2] = [2, 16];
+const PIECES_PER_SECOND: f32 = 50.0;
 /// A study stays on view until the next one has repeated its own cell so often.
 const ENOUGH: u64 = 20;
 
@@ -128,9 +130,9 @@ impl Tuner {
         }
     }
 
-    /// Takes what has come and asks for what is missing, or makes a few runs. Returns whether the next frame should
-    /// come at once for it.
-    pub fn work(&mut self) -> bool {
+    /// Takes what has come and asks for what is missing, or makes a few runs; `frame` is how long frames take, s.
+    /// Returns whether the next one should come at once for it.
+    pub fn work(&mut self, frame: f32) -> bool {
         let Some((study, _)) = self.study.as_mut().filter(|_| self.inputs.is_some()) else { return false };
         let before = study.progress();
         if let Some(helper) = &mut self.helper {
@@ -154,7 +156,8 @@ impl Tuner {
                 }
                 Some(_) => {}
                 None => {
-                    (0..PIECES).for_each(|_| study.step());
+                    let pieces = ((frame * PIECES_PER_SECOND) as usize).clamp(PIECES[0], PIECES[1]);
+                    (0..pieces).for_each(|_| study.step());
                     busy = true;
                 }
             }
@@ -315,7 +318,7 @@ mod tests {
     fn finish(tuner: &mut Tuner) -> usize {
         (1..2000)
             .find(|_| {
-                tuner.work();
+                tuner.work(0.0);
                 tuner.progress().is_none()
             })
             .expect("an end")
@@ -337,7 +340,7 @@ mod tests {
         let near = Near::default();
         let mut tuner = Tuner::new(Some(Box::new(near.clone())));
         tuner.update(Some(&bench()), 3);
-        tuner.work();
+        tuner.work(0.0);
         near.0.borrow_mut().broken = true;
         finish(&mut tuner);
         assert!(!tuner.has_helper());
@@ -361,7 +364,7 @@ mod tests {
         assert_eq!(tuner.left().map(|left| left.of - left.done), Some(2 * 3));
         // Nobody looks: nothing is made; and again it goes on.
         tuner.update(None, 3);
-        assert_eq!((tuner.work(), tuner.progress()), (false, None));
+        assert_eq!((tuner.work(0.0), tuner.progress()), (false, None));
         tuner.update(Some(&scenario), 3);
         finish(&mut tuner);
         // More repeats go on from those there are.
@@ -382,10 +385,10 @@ mod tests {
         let point = tuner.own(Method::Fcd);
         scenario.tracker.position_noise *= 3.0;
         tuner.update(Some(&scenario), 25);
-        tuner.work();
+        tuner.work(0.0);
         scenario.tracker.position_noise *= 1.5;
         tuner.update(Some(&scenario), 25);
-        tuner.work();
+        tuner.work(0.0);
         assert_eq!(tuner.own(Method::Fcd), point);
         finish(&mut tuner);
         assert_ne!(tuner.own(Method::Fcd), point);

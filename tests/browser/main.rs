@@ -22,3 +22,4 @@ mod failures;
 mod harness;
 mod paper;
 mod start;
+mod tuning;
