@@ -81,8 +81,9 @@ async function main() {
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(new URL("./centrode_bg.wasm", import.meta.url), Number(script.dataset.wasmBytes), showProgress);
-  await core.default({ module_or_path: wasm });
-  hooks.study = studies(core);
+  const module = await WebAssembly.compileStreaming(wasm);
+  await core.default({ module_or_path: module });
+  hooks.study = studies(core, module);
   if (settings.test) globalThis.centrode = core;
   if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());
 }

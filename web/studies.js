@@ -1,7 +1,8 @@
 // The page's end of the worker: started when the first study is asked for, replaced by nothing when it fails.
 
-/// A function that takes a request (JSON, or null for none). `core` is the program; answers go to it.
-export function studies(core) {
+/// A function that takes a request (JSON, or nothing for none). `core` is the program, to which answers go; `module` is
+/// what it was made from, compiled once for both.
+export function studies(core, module) {
   let worker = null;
   let failed = false;
 
@@ -18,8 +19,7 @@ export function studies(core) {
     worker.onerror = (event) => fail(event.message ?? "it could not be loaded");
     worker.onmessageerror = () => fail("its answer could not be read");
     worker.onmessage = ({ data }) => (data.failed ? fail(data.failed) : core.study_answered(data.answer));
-    // Compiled once for both.
-    worker.postMessage({ module: core.default.__wbindgen_wasm_module });
+    worker.postMessage({ module });
   }
 
   return (request) => {

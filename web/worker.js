@@ -8,8 +8,8 @@ let looping = false;
 let ready = null;
 
 addEventListener("message", ({ data }) => {
-  if (data.module) ready = init({ module_or_path: data.module });
-  else ready?.then(() => begin(data.request)).catch(fail);
+  if ("module" in data) ready = init({ module_or_path: data.module });
+  else ready.then(() => begin(data.request)).catch(fail);
 });
 
 function fail(error) {

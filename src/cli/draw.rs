@@ -3,6 +3,7 @@
 mod canvas;
 mod figure;
 mod map;
+mod study;
 mod ticks;
 
 use super::output::{Failure, NewFile};
@@ -13,6 +14,7 @@ use std::path::Path;
 
 pub use figure::figure;
 pub use map::map;
+pub use study::study;
 
 /// How a drawing is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,9 +38,13 @@ pub enum Kind {
 const KNOWN: &str = ".svg, .png, .csv";
 
 impl Kind {
-    /// The kind that a file's extension names.
+    /// The kind that the extension of the file behind `--out` names.
     pub fn of(path: &Path) -> Result<Self, Failure> {
-        let wrong = |what: String| Failure::Input(format!("--out {}: {what}; known are: {KNOWN}", path.display()));
+        Self::named("--out", path, KNOWN)
+    }
+
+    fn named(flag: &str, path: &Path, known: &str) -> Result<Self, Failure> {
+        let wrong = |what: String| Failure::Input(format!("{flag} {}: {what}; known are: {known}", path.display()));
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("svg") => Ok(Self::Drawing(Format::Svg)),
@@ -46,6 +52,18 @@ impl Kind {
             Some("csv") => Ok(Self::Csv),
             Some(other) => Err(wrong(format!("unknown extension .{other}"))),
             None => Err(wrong("the extension is missing".into())),
+        }
+    }
+}
+
+impl Format {
+    /// The format that the extension of the file behind a flag names.
+    pub fn of(flag: &str, path: &Path) -> Result<Self, Failure> {
+        match Kind::named(flag, path, ".svg, .png")? {
+            Kind::Drawing(format) => Ok(format),
+            Kind::Csv => {
+                Err(Failure::Input(format!("{flag} {}: not a drawing; known are: .svg, .png", path.display())))
+            }
         }
     }
 }

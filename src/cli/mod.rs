@@ -1,6 +1,7 @@
 //! The headless command: one file per subcommand.
 //!
-//! Exit code 0 for work done, 2 for bad input with one line on standard error. A closed pipe ends it quietly.
+//! Exit code 0 for work done, 2 for bad input with one line on standard error, 130 after an interrupt. A closed pipe ends
+//! it quietly.
 
 mod draw;
 mod figure;
@@ -8,6 +9,7 @@ mod map;
 mod model;
 mod output;
 mod run;
+mod study;
 mod table2;
 
 use crate::experiment::preset::{self, PRESETS};
@@ -41,6 +43,8 @@ enum Command {
     Table2(table2::Table2Args),
     /// Map what can be seen at all: the largest threshold and cell error for each place and bend at contact.
     Map(map::MapArgs),
+    /// Tune thresholds: false alarms, delay and the best filter, from repeats with and without contact.
+    Study(study::StudyArgs),
     /// List the presets.
     Presets,
     /// Print the default scenario as TOML, every key commented.
@@ -120,7 +124,8 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "what to do is missing: model, run, figure, table2, map, presets or scenario (see --help)".into(),
+                "what to do is missing: model, run, figure, table2, map, study, presets or scenario (see --help)"
+                    .into(),
             )
             .report();
         }
@@ -133,6 +138,7 @@ pub fn main() -> ExitCode {
         Command::Figure(args) => args.execute(&mut out),
         Command::Table2(args) => args.execute(&mut out),
         Command::Map(args) => args.execute(&mut out),
+        Command::Study(args) => args.execute(&mut out),
         Command::Presets => presets(&mut out),
         Command::Scenario => out.write_all(DEFAULT_TOML.as_bytes()).map_err(Failure::Output),
     };

@@ -6,6 +6,11 @@ use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+/// Exit code for what cannot be done as asked.
+const BAD_INPUT: u8 = 2;
+/// Exit code after an interrupt, as shells have it: 128 + SIGINT.
+pub const INTERRUPTED: u8 = 130;
+
 /// Why the command stops early.
 #[derive(Debug)]
 pub enum Failure {
@@ -13,6 +18,8 @@ pub enum Failure {
     Input(String),
     /// Standard output is gone.
     Output(io::Error),
+    /// The person ended it; what was finished has been written.
+    Interrupted(String),
 }
 
 impl From<io::Error> for Failure {
@@ -24,15 +31,16 @@ impl From<io::Error> for Failure {
 impl Failure {
     /// Says why, in one line, and gives the exit code.
     pub fn report(self) -> ExitCode {
-        let line = match self {
+        let (code, line) = match self {
+            Self::Interrupted(line) => (INTERRUPTED, line),
             Self::Output(error) if error.kind() == ErrorKind::BrokenPipe => return ExitCode::SUCCESS,
-            Self::Output(error) => format!("cannot write the output: {error}"),
-            Self::Input(line) => line,
+            Self::Output(error) => (BAD_INPUT, format!("cannot write the output: {error}")),
+            Self::Input(line) => (BAD_INPUT, line),
         };
         let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         // With standard error closed as well, the exit code is all that is left.
         let _ = writeln!(io::stderr(), "centrode: {line}");
-        ExitCode::from(2)
+        ExitCode::from(code)
     }
 }
 

@@ -12,6 +12,7 @@ use crate::app::stages::chart::Chart;
 use crate::app::theme::Theme;
 use crate::app::tuner::LATE;
 use crate::study::tuning::Point;
+use crate::study::tuning::rate::{percents, spread};
 use crate::study::tuning::recommend::Verdict;
 use crate::study::tuning::watch::Method;
 use egui::{Color32, CursorIcon, Mesh, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
@@ -28,7 +29,7 @@ struct Kind {
 
 fn detected(point: &Point) -> Option<[f64; 3]> {
     let rate = point.detection?.detected;
-    (rate.of > 0).then_some([rate.low, rate.rate, rate.high].map(stretched))
+    (rate.of > 0).then_some([rate.low, rate.rate, rate.high].map(spread))
 }
 
 fn delay_of(point: &Point) -> Option<[f64; 3]> {
@@ -37,23 +38,10 @@ fn delay_of(point: &Point) -> Option<[f64; 3]> {
     (!seen.median.is_nan()).then_some([open(seen.median_low), seen.median, open(seen.median_high)])
 }
 
-/// Where a share lies on its axis, from 0 to 1.
-fn stretched(share: f64) -> f64 {
-    share.clamp(0.0, 1.0).sqrt().asin() / std::f64::consts::FRAC_PI_2
-}
-
 /// Ticks of an axis of shares, at least `spacing` points apart.
 fn shares(length: f32, spacing: f32) -> Vec<Tick> {
-    let mut ticks: Vec<Tick> = Vec::new();
-    // The ends and the middle matter most.
-    for percent in [0, 100, 50, 5, 95, 20, 80, 1, 99, 10, 90, 35, 65] {
-        let value = stretched(f64::from(percent) / 100.0);
-        let apart = |tick: &Tick| (tick.value - value).abs() as f32 * length >= spacing;
-        if ticks.iter().all(apart) {
-            ticks.push(Tick { value, text: percent.to_string() });
-        }
-    }
-    ticks
+    let tick = |percent: u8| Tick { value: spread(f64::from(percent) / 100.0), text: percent.to_string() };
+    percents(f64::from(spacing / length)).into_iter().map(tick).collect()
 }
 
 /// Contacts found against false alarms: the operating characteristic.
@@ -80,7 +68,7 @@ fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Co
     let rows = if kind.share { shares(size.y, 15.0) } else { chart.y.ticks(28.0, Steps::Decimal) };
     chart.frame_with(&painter, theme, ["Free runs that alarm (%)", kind.name], [shares(size.x, 26.0), rows]);
     let inside = painter.with_clip_rect(chart.data.expand(8.0).intersect(painter.clip_rect()));
-    let wish = chart.x.at(stretched(view.tuning.wish));
+    let wish = chart.x.at(spread(view.tuning.wish));
     let line = [pos2(wish, chart.data.top()), pos2(wish, chart.data.bottom())];
     inside.extend(Shape::dashed_line(&line, Stroke::new(1.0, theme.accent), 4.0, 4.0));
     legend(ui, rect, view);
@@ -100,7 +88,7 @@ fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Co
         );
     }
     let at = |point: &Point| {
-        (kind.value)(point).map(|[_, value, _]| chart.at([stretched(point.false_alarms.rate.rate), value]))
+        (kind.value)(point).map(|[_, value, _]| chart.at([spread(point.false_alarms.rate.rate), value]))
     };
     if let Verdict::Take { cell, level, .. } = &view.derived.verdict
         && let Some(at) = at(&view.study.point(*cell, chosen, *level))
@@ -151,9 +139,9 @@ fn one(painter: &Painter, chart: &Chart, kind: &Kind, points: &[Point], color: C
         };
         let alarms = point.false_alarms.rate;
         // More alarms go with more found and with less delay: the corners of both intervals that are farthest from the curve.
-        let [few, many] = [alarms.low, alarms.high].map(stretched);
+        let [few, many] = [alarms.low, alarms.high].map(spread);
         let [below, above] = if kind.share { [[many, low], [few, high]] } else { [[few, low], [many, high]] };
-        let at = chart.at([stretched(alarms.rate), value]);
+        let at = chart.at([spread(alarms.rate), value]);
         if line.last() == Some(&at) && last.is_some() {
             continue;
         }

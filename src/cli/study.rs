@@ -1,0 +1,239 @@
+//! `centrode study`: what every threshold would cost, and which to take.
+
+mod table;
+mod text;
+mod work;
+
+use super::ScenarioArgs;
+use super::draw::{self, Format};
+use super::output::{Failure, NewFile, json};
+use crate::experiment::Scenario;
+use crate::experiment::scenario::Xi1Rule;
+use crate::study::Job;
+use crate::study::tuning::recommend::{Verdict, Wish, recommend};
+use crate::study::tuning::sweep::{Sweep, SweepError, combinations};
+use crate::study::tuning::watch::Method;
+use crate::study::tuning::{Point, Spec, Study};
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Flags of `centrode study`.
+#[derive(Debug, Args)]
+pub struct StudyArgs {
+    /// Without a file or preset, `bench`: the default scenario has no noise.
+    #[command(flatten)]
+    scenario: ScenarioArgs,
+    /// Repeats of each combination, with contact and without.
+    #[arg(long, value_name = "N", default_value_t = 200)]
+    repeats: usize,
+    /// An alarm later than this after contact counts as missed, in s.
+    #[arg(long, value_name = "SECONDS", default_value_t = 1.0)]
+    late: f64,
+    /// Compare values of a key, as in filter.length=100:1000:10 (ten values) or contact.disk=1,2,3; may be repeated. Values
+    /// of detection.xi2 or detection.xi1 take the place of the usual thresholds.
+    #[arg(long = "sweep", value_name = "KEY=VALUES")]
+    sweeps: Vec<String>,
+    /// How alarms are raised, for the recommendation: by the centrode, by joint forces, by either, by both at once.
+    #[arg(long, value_enum, default_value_t = MethodArg::Fcd)]
+    method: MethodArg,
+    /// The share of runs without contact that may alarm, above 0 and below 1.
+    #[arg(long, value_name = "RATE", default_value_t = 0.05)]
+    false_alarms: f64,
+    /// Print JSON instead of a summary, in SI units: every cell with its curves.
+    #[arg(long)]
+    json: bool,
+    /// Write every threshold of every cell to a CSV file, units in the header.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw operating curves and delays to a file, .svg or .png.
+    #[arg(long, value_name = "FILE.{svg,png}")]
+    svg: Option<PathBuf>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum MethodArg {
+    Fcd,
+    Jfd,
+    Or,
+    And,
+}
+
+impl From<MethodArg> for Method {
+    fn from(method: MethodArg) -> Self {
+        match method {
+            MethodArg::Fcd => Self::Fcd,
+            MethodArg::Jfd => Self::Jfd,
+            MethodArg::Or => Self::Or,
+            MethodArg::And => Self::And,
+        }
+    }
+}
+
+/// What a study comes to. SI units; null where a value is not defined.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    scenario: &'a Scenario,
+    repeats: usize,
+    /// s
+    late: f64,
+    /// Whether it was interrupted: cells say how many runs they hold.
+    partial: bool,
+    wish: Wish,
+    cells: Vec<CellReport<'a>>,
+    recommendation: Recommendation<'a>,
+}
+
+#[derive(Debug, Serialize)]
+struct CellReport<'a> {
+    /// What it changes in the scenario.
+    set: &'a [String],
+    runs_free: u64,
+    /// Null without a contact.
+    runs_contact: Option<u64>,
+    /// Truth, s; null when contact never begins.
+    contact_time: Option<f64>,
+    /// At the scenario's own thresholds; null where one is off.
+    own: ByMethod<Option<Point>>,
+    /// At all thresholds, without the inner points of stretches in which nothing else changes.
+    curves: ByMethod<Vec<Point>>,
+}
+
+#[derive(Debug, Serialize)]
+struct ByMethod<T> {
+    fcd: T,
+    jfd: T,
+    or: T,
+    and: T,
+}
+
+impl<T> ByMethod<T> {
+    fn of(of: impl Fn(Method) -> T) -> Self {
+        Self { fcd: of(Method::Fcd), jfd: of(Method::Jfd), or: of(Method::Or), and: of(Method::And) }
+    }
+}
+
+#[derive(Debug, Serialize)]
+struct Recommendation<'a> {
+    #[serde(flatten)]
+    verdict: &'a Verdict,
+    /// What the cell to take changes in the scenario, and its filter length.
+    set: Option<&'a [String]>,
+    filter_length: Option<u64>,
+}
+
+impl StudyArgs {
+    /// Repeats, counts and reports.
+    pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        let scenario = self.scenario.scenario_or("bench")?;
+        let wish = Wish { method: self.method.into(), false_alarm_rate: self.false_alarms };
+        if !(wish.false_alarm_rate > 0.0 && wish.false_alarm_rate < 1.0) {
+            let line = format!("--false-alarms {}: a share above 0 and below 1 is expected", self.false_alarms);
+            return Err(Failure::Input(line));
+        }
+        let study = Study::new(self.spec(&scenario)?).map_err(|error| Failure::Input(error.to_string()))?;
+        let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
+        // A file that cannot be written is said before the work, not after it.
+        let [table, mut drawing] = [&self.csv, &self.svg].map(|path| path.as_deref().map(NewFile::create));
+        let (table, drawing) = (table.transpose()?, drawing.take().transpose()?);
+
+        let (study, partial) = work::work(study);
+        let verdict = recommend(&study, &wish);
+        if let Some(file) = table {
+            table::csv(file, &study, partial)?;
+        }
+        if let (Some(mut file), Some(format)) = (drawing, format) {
+            draw::write(&mut file, draw::study(&study, &wish, &verdict, partial, format))?;
+            file.finish()?;
+        }
+        if self.json {
+            json(out, &report(&study, wish, &verdict, partial))?;
+        } else {
+            text::text(out, &study, &wish, &verdict, partial)?;
+        }
+        out.flush()?;
+        if partial {
+            let progress = study.progress();
+            let line =
+                format!("interrupted after {} of {} runs; what is written is partial", progress.done, progress.of);
+            return Err(Failure::Interrupted(line));
+        }
+        Ok(())
+    }
+
+    fn spec(&self, scenario: &Scenario) -> Result<Spec, Failure> {
+        let (mut xi2, mut xi1) = (None, None);
+        let mut others = Vec::new();
+        let rule = scenario.detection.xi1_rule;
+        for text in &self.sweeps {
+            let refused = |error: SweepError| Failure::Input(format!("--sweep {text}: {error}"));
+            let sweep: Sweep = text.parse().map_err(refused)?;
+            let levels = match (sweep.key.as_str(), rule) {
+                ("detection.xi2", _) => &mut xi2,
+                ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => &mut xi1,
+                ("detection.xi1" | "detection.xi1_factor", _) => {
+                    let other = if rule == Xi1Rule::Constant { "detection.xi1" } else { "detection.xi1_factor" };
+                    let line =
+                        format!("--sweep {text}: it is not looked at with this detection.xi1_rule; sweep {other}");
+                    return Err(Failure::Input(line));
+                }
+                _ => {
+                    others.push(sweep);
+                    continue;
+                }
+            };
+            if levels.is_some() {
+                return Err(refused(SweepError::Twice(sweep.key)));
+            }
+            *levels = Some(sweep.levels().map_err(refused)?);
+        }
+        let cells = combinations(scenario, &others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
+        Ok(Spec { scenario: scenario.clone(), repeats: self.repeats, late: self.late, cells, xi2, xi1 })
+    }
+}
+
+fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool) -> Report<'a> {
+    let cells = study.cells().iter().enumerate().map(|(k, cell)| {
+        let (runs_free, runs_contact) = study.repeats(k);
+        let own = |method| study.own(k, method).map(|level| study.point(k, method, level));
+        CellReport {
+            set: &cell.set,
+            runs_free,
+            runs_contact,
+            contact_time: study.contact_time(k),
+            own: ByMethod::of(own),
+            curves: ByMethod::of(|method| thinned(study.curve(k, method))),
+        }
+    });
+    let taken = match verdict {
+        Verdict::Take { cell, .. } => Some(&study.cells()[*cell]),
+        _ => None,
+    };
+    Report {
+        scenario: &study.spec().scenario,
+        repeats: study.spec().repeats,
+        late: study.spec().late,
+        partial,
+        wish,
+        cells: cells.collect(),
+        recommendation: Recommendation {
+            verdict,
+            set: taken.map(|cell| &cell.set[..]),
+            filter_length: taken.map(|cell| cell.scenario.filter.length),
+        },
+    }
+}
+
+/// Without the points between two that say the same.
+fn thinned(points: Vec<Point>) -> Vec<Point> {
+    let says = |k: usize| {
+        let Point { false_alarms, detection, .. } = &points[k];
+        let counts = detection.map(|seen| (seen.early.count, seen.detected.count, seen.late));
+        let delays = detection.map(|seen| [seen.mean, seen.mean_error, seen.median, seen.ninety].map(f64::to_bits));
+        (false_alarms.rate.count, false_alarms.watched.to_bits(), counts, delays)
+    };
+    let last = points.len().saturating_sub(1);
+    let kept = (0..points.len()).filter(|&k| k == 0 || k == last || says(k) != says(k - 1) || says(k) != says(k + 1));
+    kept.map(|k| points[k]).collect()
+}

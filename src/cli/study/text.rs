@@ -1,0 +1,156 @@
+//! A study in words and a table.
+
+use crate::experiment::scenario::Xi1Rule;
+use crate::study::Job;
+use crate::study::tuning::rate::Rate;
+use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
+use crate::study::tuning::tally::Detection;
+use crate::study::tuning::watch::Method;
+use crate::study::tuning::{Point, Study};
+use std::io::{self, Write};
+
+/// Writes them.
+pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> io::Result<()> {
+    let spec = study.spec();
+    let progress = study.progress();
+    let made = if partial { format!(", PARTIAL: {} of {} runs", progress.done, progress.of) } else { String::new() };
+    writeln!(out, "study       {} repeats with contact and without{made}", spec.repeats)?;
+    writeln!(out, "late        alarms more than {} s after contact count as missed", spec.late)?;
+    writeln!(out, "intervals   95 % (Wilson; of the median, from its ranks)\n")?;
+    if let [_] = study.cells() {
+        writeln!(out, "{}", head("method      threshold"))?;
+        for method in Method::ALL {
+            let lead = match study.own(0, method) {
+                Some(level) => format!("{:<11} {}", name(method), threshold(study, 0, method, level)),
+                None => format!("{:<11} off", name(method)),
+            };
+            let point = study.own(0, method).map(|level| study.point(0, method, level));
+            writeln!(out, "{}", row(&lead, 23, point.as_ref()))?;
+        }
+        match study.contact_time(0) {
+            Some(time) => writeln!(out, "\ncontact     at {time:.3} s")?,
+            None => writeln!(out, "\ncontact     none")?,
+        }
+    } else {
+        let wide = study.cells().iter().map(|cell| cell.set.join(" ").chars().count()).max().unwrap_or(0);
+        writeln!(out, "{}, at the threshold that is set, and at the one advised in each cell", name(wish.method))?;
+        writeln!(out, "{}", head(&format!("{:<wide$}  threshold", "")))?;
+        for (k, cell) in study.cells().iter().enumerate() {
+            let lead = |level: usize, sets: &str| format!("{sets:<wide$}  {}", threshold(study, k, wish.method, level));
+            let sets = cell.set.join(" ");
+            match study.own(k, wish.method) {
+                Some(level) => {
+                    let point = study.point(k, wish.method, level);
+                    writeln!(out, "{}", row(&lead(level, &sets), wide + 13, Some(&point)))?;
+                }
+                None => writeln!(out, "{sets:<wide$}  off")?,
+            }
+            if let Verdict::Take { level, point, .. } = recommend_among(study, [k], wish) {
+                writeln!(out, "{}", row(&lead(level, "  advised"), wide + 13, Some(&point)))?;
+            }
+        }
+    }
+    writeln!(out, "\nadvice      {}", advice(study, wish, verdict))
+}
+
+fn name(method: Method) -> &'static str {
+    match method {
+        Method::Fcd => "centrode",
+        Method::Jfd => "forces",
+        Method::Or => "either",
+        Method::And => "both",
+    }
+}
+
+fn threshold(study: &Study, cell: usize, method: Method, level: usize) -> String {
+    let value = study.levels(cell, method)[level];
+    match (method, study.cells()[cell].scenario.detection.xi1_rule) {
+        (Method::Jfd, Xi1Rule::Constant) => format!("{:.1} mN·m", value * 1e3),
+        (Method::Jfd, Xi1Rule::Bound) => format!("{value:.2} ε_c"),
+        _ => format!("{:.2} mm", value * 1e3),
+    }
+}
+
+fn head(lead: &str) -> String {
+    format!(
+        "{lead:<23}  {:<30}  {:<30}  {:>9}  {:>6}  {:>14}  time to false alarm [s]",
+        "false alarms", "found in time", "median [s]", "90 %", "mean [s]"
+    )
+}
+
+fn row(lead: &str, wide: usize, point: Option<&Point>) -> String {
+    let Some(point) = point else { return lead.to_owned() };
+    let Detection { detected, mean, mean_error, median, ninety, .. } = match point.detection {
+        Some(seen) => seen,
+        None => {
+            let alarms = share(&point.false_alarms.rate);
+            return format!("{lead:<wide$}  {alarms:<30}  {:<30}{}", "no contact", watched(point));
+        }
+    };
+    let wide = wide.max(23);
+    format!(
+        "{lead:<wide$}  {:<30}  {:<30}  {:>10}  {:>6}  {:>14}{}",
+        share(&point.false_alarms.rate),
+        share(&detected),
+        seconds(median),
+        seconds(ninety),
+        with_error(mean, mean_error, 3),
+        watched(point),
+    )
+}
+
+fn watched(point: &Point) -> String {
+    let alarms = &point.false_alarms;
+    match alarms.rate.count {
+        0 => format!("  none in {:.0}", alarms.watched),
+        _ => format!("  {}", with_error(alarms.mean_time, alarms.mean_time_error, 1)),
+    }
+}
+
+fn with_error(mean: f64, error: f64, digits: usize) -> String {
+    match (mean.is_nan(), error.is_nan()) {
+        (true, _) => "–".into(),
+        (false, true) => format!("{mean:.digits$}"),
+        _ => format!("{mean:.digits$} ± {error:.digits$}"),
+    }
+}
+
+fn seconds(value: f64) -> String {
+    if value.is_nan() { "–".into() } else { format!("{value:.3}") }
+}
+
+/// `3 of 100 (1.0 to 8.5 %)`.
+fn share(rate: &Rate) -> String {
+    format!("{} of {} ({:.1} to {:.1} %)", rate.count, rate.of, rate.low * 100.0, rate.high * 100.0)
+}
+
+fn advice(study: &Study, wish: &Wish, verdict: &Verdict) -> String {
+    let wished = wish.false_alarm_rate * 100.0;
+    let most = format!("at most {wished} % false alarms");
+    match verdict {
+        Verdict::Take { cell, level, point } => {
+            let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
+            let others = study.cells()[*cell].set.iter().filter(|set| !set.starts_with("filter.length="));
+            let others: String = others.map(|set| format!(", {set}")).collect();
+            format!(
+                "{} with N = {}{}: soonest with {most}, {} s after contact (median); {} runs without contact alarm",
+                threshold(study, *cell, wish.method, *level),
+                study.cells()[*cell].scenario.filter.length,
+                others,
+                seconds(delay),
+                share(&point.false_alarms.rate),
+            )
+        }
+        Verdict::TooFewRuns { needed } => {
+            format!("none reaches this: with so few runs not even silence shows {most}; --repeats {needed} could")
+        }
+        Verdict::NoneQuiet { lowest } => {
+            format!("none reaches this: {most} are asked for, the quietest threshold may have {:.1} %", lowest * 100.0)
+        }
+        Verdict::NoneFinds { best } => format!(
+            "none reaches this: with {most}, no threshold finds half of the contacts in time; the best finds {:.1} %",
+            best * 100.0
+        ),
+        Verdict::NoContact => "none: without a contact there is nothing to find".into(),
+    }
+}
