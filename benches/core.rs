@@ -6,8 +6,11 @@ use centrode::model::{Configuration, Constrained, Rate, locate};
 use centrode::study::Job;
 use centrode::study::map::MapJob;
 use centrode::study::table2::{PAPER_REPEATS, Table2Job};
+use centrode::study::tuning::{Spec, Study};
 use criterion::{Criterion, criterion_group, criterion_main};
+use rayon::iter::{ParallelBridge, ParallelIterator};
 use std::hint::black_box;
+use std::sync::Mutex;
 
 fn model(c: &mut Criterion) {
     let segment = Scenario::default().robot.segment();
@@ -60,5 +63,28 @@ fn study(c: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, model, experiment, study);
+/// Thresholds over repeats, as the command makes them: 500 with contact and 500 without.
+fn tuning(c: &mut Criterion) {
+    let mut group = c.benchmark_group("tuning");
+    group.sample_size(10);
+    for name in ["paper", "bench"] {
+        let scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
+        let spec = Spec { scenario, repeats: 500, late: 1.0, cells: vec![Vec::new()], xi2: None, xi1: None };
+        let study = Study::new(spec).expect("a study");
+        group.bench_function(format!("1000 runs of {name} on all cores"), |b| {
+            b.iter(|| {
+                let counted = Mutex::new(study.clone());
+                (0..study.progress().of).par_bridge().for_each(|piece| {
+                    let piece = study.piece(piece);
+                    let firsts = study.run(piece);
+                    counted.lock().expect("no panic").add(piece.0, &firsts);
+                });
+                counted.into_inner().expect("no panic").point(0, centrode::study::tuning::watch::Method::Fcd, 69)
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, model, experiment, study, tuning);
 criterion_main!(benches);

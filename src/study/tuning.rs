@@ -173,10 +173,11 @@ impl Study {
         &self.cells
     }
 
-    /// Which batch and which repeat the `piece`-th piece of work is, of [`Progress::of`].
+    /// Which batch and which repeat the `piece`-th piece of work is, of [`Progress::of`]: the batches take turns, so that
+    /// whoever stops early has equally many repeats of each.
     #[must_use]
     pub fn piece(&self, piece: usize) -> (usize, usize) {
-        (piece / self.spec.repeats, piece % self.spec.repeats)
+        (piece % self.batches.len(), piece / self.batches.len())
     }
 
     /// Makes one repeat of one batch; changes nothing, so that many can be made at once.

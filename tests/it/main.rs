@@ -22,6 +22,8 @@ mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]
 mod shaders;
+#[cfg(feature = "cli")]
+mod study_command;
 mod support;
 mod table2;
 mod tuning;

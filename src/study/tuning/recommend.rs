@@ -60,7 +60,7 @@ pub fn recommend(study: &Study, wish: &Wish) -> Verdict {
 /// When there is no such cell.
 #[must_use]
 pub fn recommend_among(study: &Study, cells: impl IntoIterator<Item = usize>, wish: &Wish) -> Verdict {
-    let (mut runs, mut lowest, mut finds) = (0, f64::INFINITY, f64::NAN);
+    let (mut runs, mut lowest, mut finds) = (0, f64::INFINITY, 0.0f64);
     let mut best: Option<(usize, usize, Point)> = None;
     let mut contact = false;
     for cell in cells {

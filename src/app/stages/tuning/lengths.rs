@@ -115,8 +115,12 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
 
 /// The place of the level nearest to a threshold.
 fn nearest(levels: &[f64], threshold: f64) -> usize {
+    let above = levels.partition_point(|&level| level < threshold);
     let far = |level: usize| (levels[level] - threshold).abs();
-    (0..levels.len()).min_by(|&a, &b| far(a).total_cmp(&far(b))).unwrap_or(0)
+    [above.saturating_sub(1), above.min(levels.len().saturating_sub(1))]
+        .into_iter()
+        .min_by(|&a, &b| far(a).total_cmp(&far(b)))
+        .unwrap_or(0)
 }
 
 /// Delay as a share of the largest in time, and whether false alarms are as rare as wished.
