@@ -10,7 +10,7 @@ use super::output::{Failure, NewFile, json};
 use crate::experiment::Scenario;
 use crate::experiment::scenario::Xi1Rule;
 use crate::study::Job;
-use crate::study::tuning::recommend::{Verdict, Wish, recommend};
+use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use crate::study::tuning::sweep::{Sweep, SweepError, combinations};
 use crate::study::tuning::watch::Method;
 use crate::study::tuning::{Point, Spec, Study};
@@ -82,7 +82,8 @@ struct Report<'a> {
     partial: bool,
     wish: Wish,
     cells: Vec<CellReport<'a>>,
-    recommendation: Recommendation<'a>,
+    /// Among all cells; null where they differ in more than can be tuned.
+    recommendation: Option<Recommendation<'a>>,
 }
 
 #[derive(Debug, Serialize)]
@@ -98,6 +99,8 @@ struct CellReport<'a> {
     own: ByMethod<Option<Point>>,
     /// At all thresholds, without the inner points of stretches in which nothing else changes.
     curves: ByMethod<Vec<Point>>,
+    /// Which threshold to take in this cell.
+    advised: Verdict,
 }
 
 #[derive(Debug, Serialize)]
@@ -139,7 +142,9 @@ impl StudyArgs {
         let (table, drawing) = (table.transpose()?, drawing.take().transpose()?);
 
         let (study, partial) = work::work(study);
-        let verdict = recommend(&study, &wish);
+        // Cells that differ in what is to be found are no alternatives: each has its own advice.
+        let cells = if is_tuned(&study) { 0..study.cells().len() } else { 0..1 };
+        let verdict = recommend_among(&study, cells, &wish);
         if let Some(file) = table {
             table::csv(file, &study, partial)?;
         }
@@ -204,6 +209,7 @@ fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool)
             contact_time: study.contact_time(k),
             own: ByMethod::of(own),
             curves: ByMethod::of(|method| thinned(study.curve(k, method))),
+            advised: recommend_among(study, [k], &wish),
         }
     });
     let taken = match verdict {
@@ -217,12 +223,18 @@ fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool)
         partial,
         wish,
         cells: cells.collect(),
-        recommendation: Recommendation {
+        recommendation: is_tuned(study).then(|| Recommendation {
             verdict,
             set: taken.map(|cell| &cell.set[..]),
             filter_length: taken.map(|cell| cell.scenario.filter.length),
-        },
+        }),
     }
+}
+
+/// Whether the cells differ in nothing but what can be tuned: filter and detection.
+fn is_tuned(study: &Study) -> bool {
+    let mut sets = study.cells().iter().flat_map(|cell| &cell.set);
+    sets.all(|set| set.starts_with("filter.") || set.starts_with("detection."))
 }
 
 /// Without the points between two that say the same.

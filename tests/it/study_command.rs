@@ -36,6 +36,10 @@ fn json_holds_the_library_s_study() {
         assert_eq!(ours["cells"][cell]["contact_time"].as_f64(), theirs.contact_time(cell));
     }
     assert_eq!(ours["recommendation"]["verdict"], "too-few-runs");
+    // Where a contact is cannot be tuned.
+    let places = json(&["study", "--repeats", "3", "--json", "--sweep", "contact.disk=2,3", "--false-alarms", "0.7"]);
+    assert!(places["recommendation"].is_null());
+    assert_eq!(places["cells"][1]["advised"]["verdict"], "take");
 }
 
 #[test]

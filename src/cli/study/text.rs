@@ -9,6 +9,9 @@ use crate::study::tuning::watch::Method;
 use crate::study::tuning::{Point, Study};
 use std::io::{self, Write};
 
+/// Width of method and threshold.
+const NARROW: usize = 23;
+
 /// Writes them.
 pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> io::Result<()> {
     let spec = study.spec();
@@ -18,14 +21,14 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     writeln!(out, "late        alarms more than {} s after contact count as missed", spec.late)?;
     writeln!(out, "intervals   95 % (Wilson; of the median, from its ranks)\n")?;
     if let [_] = study.cells() {
-        writeln!(out, "{}", head("method      threshold"))?;
+        writeln!(out, "{}", head("method      threshold", NARROW))?;
         for method in Method::ALL {
             let lead = match study.own(0, method) {
                 Some(level) => format!("{:<11} {}", name(method), threshold(study, 0, method, level)),
                 None => format!("{:<11} off", name(method)),
             };
             let point = study.own(0, method).map(|level| study.point(0, method, level));
-            writeln!(out, "{}", row(&lead, 23, point.as_ref()))?;
+            writeln!(out, "{}", row(&lead, NARROW, point.as_ref()))?;
         }
         match study.contact_time(0) {
             Some(time) => writeln!(out, "\ncontact     at {time:.3} s")?,
@@ -34,7 +37,7 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     } else {
         let wide = study.cells().iter().map(|cell| cell.set.join(" ").chars().count()).max().unwrap_or(0);
         writeln!(out, "{}, at the threshold that is set, and at the one advised in each cell", name(wish.method))?;
-        writeln!(out, "{}", head(&format!("{:<wide$}  threshold", "")))?;
+        writeln!(out, "{}", head(&format!("{:<wide$}  threshold", ""), wide + 13))?;
         for (k, cell) in study.cells().iter().enumerate() {
             let lead = |level: usize, sets: &str| format!("{sets:<wide$}  {}", threshold(study, k, wish.method, level));
             let sets = cell.set.join(" ");
@@ -50,7 +53,10 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
             }
         }
     }
-    writeln!(out, "\nadvice      {}", advice(study, wish, verdict))
+    match super::is_tuned(study) {
+        true => writeln!(out, "\nadvice      {}", advice(study, wish, verdict)),
+        false => writeln!(out, "\nadvice      in each cell its own: the sweeps change what is to be found"),
+    }
 }
 
 fn name(method: Method) -> &'static str {
@@ -71,9 +77,9 @@ fn threshold(study: &Study, cell: usize, method: Method, level: usize) -> String
     }
 }
 
-fn head(lead: &str) -> String {
+fn head(lead: &str, wide: usize) -> String {
     format!(
-        "{lead:<23}  {:<30}  {:<30}  {:>9}  {:>6}  {:>14}  time to false alarm [s]",
+        "{lead:<wide$}  {:<30}  {:<30}  {:>10}  {:>6}  {:>14}  time to false alarm [s]",
         "false alarms", "found in time", "median [s]", "90 %", "mean [s]"
     )
 }
@@ -87,7 +93,6 @@ fn row(lead: &str, wide: usize, point: Option<&Point>) -> String {
             return format!("{lead:<wide$}  {alarms:<30}  {:<30}{}", "no contact", watched(point));
         }
     };
-    let wide = wide.max(23);
     format!(
         "{lead:<wide$}  {:<30}  {:<30}  {:>10}  {:>6}  {:>14}{}",
         share(&point.false_alarms.rate),
