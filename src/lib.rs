@@ -20,6 +20,7 @@
 //! | Figures 3, 4, 6, 7, 8 | | [`study::figure`] |
 //! | Table II | | [`study::table2`] |
 //! | what can be seen at all | 16, 19 | [`study::map`] |
+//! | false alarms, delay, which threshold to take | | [`study::tuning`] |
 //!
 //! Read [`model`], then [`experiment`], then [`study`] and [`scene`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
 //! `tests/it/misprints.rs` shows it.

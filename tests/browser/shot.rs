@@ -20,6 +20,14 @@ fn main() {
             for problem in page.problems() {
                 println!("  console: {problem}");
             }
+            page.click("ComboBox", "Show");
+            page.click("ListBoxOption", "Tuning");
+            page.wait("the study", |page| {
+                let study: serde_json::Value = serde_json::from_str(&page.data("tuning")?).ok()?;
+                (study["done"] == study["of"]).then_some(())
+            });
+            page.frames();
+            write(&mut page, &out, &format!("{name}-{shade}-tuning"));
             page.eval("centrode.fail_on_purpose()");
             wait_for(&mut page, "failed");
             write(&mut page, &out, &format!("{name}-{shade}-failed"));

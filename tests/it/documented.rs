@@ -1,10 +1,19 @@
-//! What `docs/PAPER.md` shows of the command's output is what the command prints.
+//! What the documents show of the command's output is what the command prints.
 
 use crate::cli::centrode;
 
 #[test]
 fn the_page_on_the_paper_shows_what_the_command_prints() {
-    let page = include_str!("../../docs/PAPER.md");
+    compare(include_str!("../../docs/PAPER.md"), 20);
+}
+
+#[test]
+fn the_page_on_tuning_shows_what_the_command_prints() {
+    compare(include_str!("../../docs/TUNING.md"), 15);
+}
+
+/// Runs every command of a document and looks for its lines; there are more than `least`.
+fn compare(page: &str, least: usize) {
     let mut shown = 0;
     for block in page.split("```console\n").skip(1) {
         let (block, _) = block.split_once("```").expect("a block ends");
@@ -21,5 +30,5 @@ fn the_page_on_the_paper_shows_what_the_command_prints() {
             shown += 1;
         }
     }
-    assert!(shown > 20, "{shown} lines");
+    assert!(shown > least, "{shown} lines");
 }

@@ -37,6 +37,10 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
          columns headed as the paper's are its measurements. The map shows, for each place and bend at contact, the largest thresholds that still find it; a click puts the contact there.",
     ),
     (
+        "Tuning",
+        "The last of that menu repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show what an early alarm costs in false ones,          their bands what so few runs leave open. A dot is what is set, a ring what is advised; a click or a drag on any picture takes its threshold, and the plots below follow.",
+    ),
+    (
         "How to try things",
         "Drag a slider or type a value with or without its unit; the whole experiment is computed anew at once. A notch under a slider marks the preset, and the round arrow goes back to it.",
     ),
