@@ -5,7 +5,7 @@ use centrode::app::{App, Host};
 use centrode::experiment::scenario::Threshold;
 use centrode::study::tuning::watch::Method;
 use egui::accesskit::Role;
-use egui::{Vec2, pos2, vec2};
+use egui::{Event, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -116,6 +116,38 @@ fn a_drag_on_each_picture_moves_the_threshold() {
         assert_ne!(xi2(&page), before, "{figure}");
         finish(&mut page);
     }
+}
+
+#[test]
+fn a_finger_drags_the_dot_and_scrolls_from_anywhere_else() {
+    let mut page = page_of(PHONE, egui::Theme::Dark);
+    finish(&mut page);
+    let finger = |page: &mut Page, at: egui::Pos2, phase: TouchPhase| {
+        page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos: at, force: None });
+        page.event(Event::PointerMoved(at));
+        if phase != TouchPhase::Move {
+            let (button, pressed) = (egui::PointerButton::Primary, phase == TouchPhase::Start);
+            page.event(Event::PointerButton { pos: at, button, pressed, modifiers: egui::Modifiers::NONE });
+        }
+        page.step();
+    };
+    let chart = |page: &Page| page.get_by_role_and_label(Role::Figure, "Delay against false alarms").rect();
+    let (before, place) = (xi2(&page), chart(&page));
+    let start = place.lerp_inside(vec2(0.8, 0.9));
+    finger(&mut page, start, TouchPhase::Start);
+    (1..=8).for_each(|k| finger(&mut page, start - vec2(0.0, 10.0 * k as f32), TouchPhase::Move));
+    finger(&mut page, start - vec2(0.0, 80.0), TouchPhase::End);
+    page.run_steps(3);
+    assert_eq!(xi2(&page), before);
+    assert!(chart(&page).top() < place.top() - 30.0, "it did not scroll: {:?} from {place:?}", chart(&page));
+    // The dot of 7 mm: about 16 % of the runs alarm, and the delay is about 0.47 s.
+    let place = chart(&page);
+    let dot = place.lerp_inside(vec2(0.04 / 1.08 + 0.262 / 1.08, 1.0 - 0.469 / 1.04));
+    finger(&mut page, dot, TouchPhase::Start);
+    (1..=8).for_each(|k| finger(&mut page, dot + vec2(12.0 * k as f32, 0.0), TouchPhase::Move));
+    finger(&mut page, dot + vec2(96.0, 0.0), TouchPhase::End);
+    page.run_steps(3);
+    assert!(xi2(&page) < before, "{:?} from {before:?}", xi2(&page));
 }
 
 #[test]

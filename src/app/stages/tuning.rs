@@ -19,7 +19,8 @@ use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use crate::study::tuning::watch::Method;
 use crate::study::tuning::{Point, Study};
 use egui::{
-    Align2, Color32, CursorIcon, Label, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2,
+    Align2, Color32, CursorIcon, Label, Pos2, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use lengths::Picture;
 
@@ -28,6 +29,8 @@ const BESIDE: f32 = 700.0;
 /// Least height of a picture.
 const LEAST: f32 = 176.0;
 const GAP: f32 = 12.0;
+/// A finger holds what is this near, points.
+const REACH: f32 = 32.0;
 /// The shares of false alarms that can be wished for.
 const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
 const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
@@ -251,6 +254,21 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
             }
         }
     });
+}
+
+/// Where a click or a drag takes something. A finger drags what it holds, `near` where that is, and scrolls the page from
+/// anywhere else.
+fn taken(ui: &Ui, response: &Response, near: impl Fn(Pos2) -> bool) -> Option<Pos2> {
+    let at = response.interact_pointer_pos()?;
+    if response.drag_started() {
+        let (finger, from) = ui.input(|input| (input.any_touches(), input.pointer.press_origin()));
+        ui.data_mut(|data| data.insert_temp(response.id, finger && !near(from.unwrap_or(at))));
+    }
+    if response.dragged() && ui.data(|data| data.get_temp(response.id).unwrap_or(false)) {
+        ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
+        return None;
+    }
+    (response.clicked() || response.dragged()).then_some(at)
 }
 
 /// A title above a picture.

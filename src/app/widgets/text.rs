@@ -19,7 +19,7 @@ pub fn width(ui: &Ui, text: &str, font: FontId) -> f32 {
 #[must_use]
 pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     let mut text = text.replace("ξ1", "ξ_1").replace("ξ2", "ξ_2").replace("θL", "θ_L");
-    for unit in ["s", "mm"] {
+    for unit in ["s", "mm", "mN", "%"] {
         for digit in '0'..='9' {
             text = text.replace(&format!("{digit} {unit}"), &format!("{digit}\u{a0}{unit}"));
         }

@@ -51,7 +51,7 @@ impl super::Drawing for Drawing<'_> {
         canvas.rectangle([0.0, 0.0, SIZE[0], SIZE[1]], Color::WHITE);
         let bold = Look { bold: true, upright: false };
         canvas.text("What thresholds cost", [30.0, 40.0], 20.0, palette.ink, Align::Left, bold);
-        let late = self.study.spec().late;
+        let late = self.late();
         let cells = self.drawn();
         let sides: [(&str, &str, Vec<Curve>); 2] = [
             (
@@ -72,11 +72,7 @@ impl super::Drawing for Drawing<'_> {
                 percents(0.045).into_iter().map(mark).collect()
             } else {
                 let inside = |(value, _): &(f64, String)| *value <= late;
-                ticks([0.0, late], "s")
-                    .into_iter()
-                    .filter(inside)
-                    .map(|(value, text)| (value / late.max(1e-9), text))
-                    .collect()
+                ticks([0.0, late], "s").into_iter().filter(inside).map(|(value, text)| (value / late, text)).collect()
             };
             frame(canvas, [left, right], name, &marks, palette);
             let wish = left + (right - left) * spread(self.wish.false_alarm_rate);
@@ -97,6 +93,12 @@ impl super::Drawing for Drawing<'_> {
 }
 
 impl Drawing<'_> {
+    /// Top of the delays, s: no run is longer.
+    fn late(&self) -> f64 {
+        let ends = self.study.cells().iter().map(|cell| cell.scenario.motion.end);
+        self.study.spec().late.min(ends.fold(0.0, f64::max)).max(1e-9)
+    }
+
     /// The cell of the first panel: the advised one, or the first.
     fn cell(&self) -> usize {
         match self.verdict {
@@ -149,7 +151,7 @@ impl Drawing<'_> {
     fn delay(&self, point: &Point) -> Option<[At; 3]> {
         let seen = point.detection?;
         let alarms = point.false_alarms.rate;
-        let late = self.study.spec().late.max(1e-9);
+        let late = self.late();
         let open = |value: f64| if value.is_nan() { late } else { value };
         let at = |x: f64, y: f64| place(PANELS[1], [spread(x), y / late]);
         (!seen.median.is_nan() && alarms.of > 0).then(|| {

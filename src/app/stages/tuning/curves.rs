@@ -4,7 +4,7 @@
 //! runs are about equally wide everywhere.
 
 use super::words::{digits, percent};
-use super::{Named, View, color, title};
+use super::{Named, REACH, View, color, taken, title};
 use crate::app::command::Command;
 use crate::app::notation::{self, job, number};
 use crate::app::plots::{Steps, Tick};
@@ -185,13 +185,15 @@ fn touch(
         let distance = |at: &Pos2| at.distance(pointer);
         levels.min_by(|a, b| distance(&a.1).total_cmp(&distance(&b.1)))
     };
-    if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked() || response.dragged()) {
+    let own = view.own().and_then(at);
+    if let Some(pointer) = taken(ui, &response, |finger| own.is_some_and(|own| own.distance(finger) < REACH)) {
         if let Some((level, _)) = nearest(pointer) {
             view.take(level, None, out);
         }
         return;
     }
-    let Some((level, place)) = response.hover_pos().and_then(nearest) else { return };
+    let hover = response.hover_pos().filter(|_| !response.dragged());
+    let Some((level, place)) = hover.and_then(nearest) else { return };
     let painter = ui.painter();
     painter.circle_stroke(place, 4.5, Stroke::new(1.5, view.theme.ink));
     notation::note(painter, &view.theme, place, chart.data, note(view, &view.curve()[level], &view.theme));

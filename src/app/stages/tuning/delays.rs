@@ -1,6 +1,6 @@
 //! When contact is found: a histogram of the delays for each disk, with those that alarm before and those missed.
 
-use super::{View, color, title};
+use super::{REACH, View, color, taken, title};
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::notation::{job, number};
@@ -54,7 +54,13 @@ pub fn histogram(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command
         let line = [pos2(x, chart.data.top()), pos2(x, chart.data.bottom())];
         painter.extend(Shape::dashed_line(&line, Stroke::new(1.4, theme.detection), 5.0, 3.5));
     }
-    touch(ui, &chart, heading, view, out);
+    let held = chart.x.at(median);
+    let response = ui.interact(chart.data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
+    let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, heading));
+    if let Some(pointer) = taken(ui, &response, |finger| (finger.x - held).abs() < REACH) {
+        take(chart.x.value(pointer.x), view, out);
+    }
 }
 
 fn one(painter: &Painter, row: Rect, view: &View<'_>, (name, cell): (&str, usize), level: usize) {
@@ -108,14 +114,8 @@ fn bars(count: &Count, rate: f64) -> [u32; BARS] {
     bars
 }
 
-fn touch(ui: &mut Ui, chart: &Chart, heading: &str, view: &View<'_>, out: &mut Vec<Command>) {
-    let response = ui.interact(chart.data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
-    let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
-    response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, heading));
-    let Some(pointer) = response.interact_pointer_pos().filter(|_| response.clicked() || response.dragged()) else {
-        return;
-    };
-    let wanted = chart.x.value(pointer.x);
+/// Takes the threshold whose median delay is nearest to what is wanted, s.
+fn take(wanted: f64, view: &View<'_>, out: &mut Vec<Command>) {
     let levels = view.curve().iter().enumerate();
     let far = |median: f64| (median - wanted).abs();
     let medians = levels.filter_map(|(level, point)| Some((level, point.detection?.median)));

@@ -1,6 +1,6 @@
 //! Filter length by threshold: how late contact is found, where false alarms are rare enough.
 
-use super::{Named, View, title};
+use super::{Named, REACH, View, taken, title};
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::notation::{self, job, number};
@@ -101,11 +101,12 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
         let threshold = row as f64 * picture.step / named.scale;
         (k, nearest(view.study.levels(lengths[k].1, method), threshold))
     };
-    if let Some(at) = response.interact_pointer_pos().filter(|_| response.clicked() || response.dragged()) {
+    let near = |finger: egui::Pos2| own.is_some_and(|own| own.distance(finger) < REACH);
+    if let Some(at) = taken(ui, &response, near) {
         let (k, level) = under(at);
         let threshold = view.study.levels(lengths[k].1, method)[level];
         out.push(Command::Take { method, threshold, length: Some(lengths[k].0) });
-    } else if let Some(at) = response.hover_pos() {
+    } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
         let (k, level) = under(at);
         let mut lines = super::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);
         lines.insert(1, job(&format!("N = {}", lengths[k].0), 11.5, theme.ink));
