@@ -31,6 +31,7 @@ fn page_of(size: Vec2, theme: egui::Theme) -> Page {
     }
     page.get_by_role_and_label(Role::ComboBox, "Show").click();
     page.run_steps(2);
+    picture(&mut page, &format!("menu-{}", size.x));
     page.get_by_role_and_label(Role::ListBoxOption, "Tuning").click();
     page.run_steps(2);
     page
@@ -161,6 +162,14 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
     assert_eq!(app(&page).report(), held);
     page.get_by_role_and_label(Role::Button, "Go on").click();
     finish(&mut page);
+    let length = app(&page).state().scenario.filter.length;
+    page.get_by_role_and_label(Role::RadioButton, "Forces").click();
+    page.run_steps(2);
+    page.get_by_role_and_label(Role::Button, "Take it").click();
+    page.run_steps(2);
+    let scenario = app(&page).state().scenario.clone();
+    assert_eq!(scenario.filter.length, length, "joint forces are not filtered");
+    assert_ne!(scenario.detection.xi1, Threshold::On(0.03));
     for (option, part) in [("Forces", "mN·m"), ("Both", "free runs"), ("Either", "free runs"), ("1 %", "At least 381")]
     {
         page.get_by_role_and_label(Role::RadioButton, option).click();

@@ -1,7 +1,7 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
 use crate::experiment::Scenario;
-use crate::experiment::scenario::{Place, Threshold};
+use crate::experiment::scenario::Place;
 use crate::study::tuning::remote::{Answer, Request};
 use crate::study::tuning::watch::Method;
 use crate::study::tuning::{Point, Spec, Study};
@@ -239,7 +239,7 @@ fn is_young(study: &Study) -> bool {
 
 /// The study of a scenario: as it is set, with other filter lengths, and with contact at each disk.
 fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
-    let mut scenario = scenario.clone();
+    let scenario = scenario.clone();
     let samples = scenario.motion.end * scenario.loop_rate;
     let own = scenario.filter.length;
     let mut lengths: Vec<u64> = LENGTHS.into_iter().filter(|&length| length as f64 <= samples).collect();
@@ -264,10 +264,6 @@ fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
         cells.lengths.push((length, set.len()));
         set.push(vec![format!("filter.length={length}")]);
     }
-    // Levels hold the scenario's own ξ2 only where it is on; off is no level.
-    if scenario.detection.xi2 == Threshold::On(0.0) {
-        scenario.detection.xi2 = Threshold::OFF;
-    }
     (Spec { scenario, repeats, late: LATE, cells: set, xi2: None, xi1: None }, cells)
 }
 
@@ -275,6 +271,7 @@ fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
 mod tests {
     use super::*;
     use crate::experiment::preset::find;
+    use crate::experiment::scenario::Threshold;
     use crate::study::tuning::remote::Remote;
     use std::cell::RefCell;
     use std::rc::Rc;
@@ -362,6 +359,14 @@ mod tests {
         tuner.update(Some(&scenario), 3);
         // The other disks at that length.
         assert_eq!(tuner.left().map(|left| left.of - left.done), Some(2 * 3));
+        scenario.detection.xi2 = Threshold::On(0.0);
+        tuner.update(Some(&scenario), 3);
+        finish(&mut tuner);
+        assert_eq!(tuner.own(Method::Fcd).map(|point| point.false_alarms.rate.rate), Some(1.0));
+        scenario.detection.xi2 = Threshold::OFF;
+        tuner.update(Some(&scenario), 3);
+        finish(&mut tuner);
+        assert!(tuner.own(Method::Fcd).is_none() && tuner.own(Method::Jfd).is_some());
         // Nobody looks: nothing is made; and again it goes on.
         tuner.update(None, 3);
         assert_eq!((tuner.work(0.0), tuner.progress()), (false, None));

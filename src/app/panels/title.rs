@@ -75,14 +75,17 @@ fn stages(ui: &mut Ui, rect: Rect, stage: Stage, out: &mut Vec<Command>) {
     let screen = ui.ctx().content_rect();
     let width = (screen.width() - 40.0).min(420.0);
     Popup::menu(&response).accessible_name("Show").width(width).show(|ui| {
-        ui.set_width(width);
-        ui.spacing_mut().item_spacing.y = 2.0;
-        for other in Stage::ALL {
-            if item(ui, other.name(), other.summary(), other == stage, &theme) {
-                out.push(Command::Show(other));
-                ui.close();
+        let height = screen.bottom() - rect.bottom() - 40.0;
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
+            ui.set_width(width);
+            ui.spacing_mut().item_spacing.y = 2.0;
+            for other in Stage::ALL {
+                if item(ui, other.name(), other.summary(), other == stage, &theme) {
+                    out.push(Command::Show(other));
+                    ui.close();
+                }
             }
-        }
+        });
     });
     if !Popup::is_any_open(ui.ctx()) {
         response.on_hover_text(stage.summary());

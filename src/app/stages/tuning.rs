@@ -104,10 +104,16 @@ impl View<'_> {
         self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
     }
 
+    /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
+    fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
+        let method = self.tuning.method;
+        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Method::Jfd) });
+    }
+
     /// Takes a level of the chosen method.
     fn take(&self, level: usize, length: Option<u64>, out: &mut Vec<Command>) {
         let Some(point) = self.curve().get(level) else { return };
-        out.push(Command::Take { method: self.tuning.method, threshold: point.threshold, length });
+        self.take_threshold(point.threshold, length, out);
     }
 }
 
@@ -151,12 +157,15 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
 
 fn derive(study: &Study, cells: &Cells, version: u64, tuning: Tuning) -> Derived {
     let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
+    // Joint forces are not filtered: one length says it all.
+    let lengths =
+        if tuning.method == Method::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
     Derived {
         version,
         tuning,
         curves: Method::ALL.map(|method| study.curve(0, method)),
         own: Method::ALL.map(|method| study.own(0, method)),
-        verdict: recommend_among(study, cells.lengths.iter().map(|(_, cell)| *cell), &wish),
+        verdict: recommend_among(study, lengths, &wish),
     }
 }
 

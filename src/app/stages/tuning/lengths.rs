@@ -105,7 +105,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
     if let Some(at) = taken(ui, &response, near) {
         let (k, level) = under(at);
         let threshold = view.study.levels(lengths[k].1, method)[level];
-        out.push(Command::Take { method, threshold, length: Some(lengths[k].0) });
+        view.take_threshold(threshold, Some(lengths[k].0), out);
     } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
         let (k, level) = under(at);
         let mut lines = super::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);

@@ -7,6 +7,7 @@ use crate::experiment::scenario::Place;
 use crate::study::tuning::rate::Rate;
 use crate::study::tuning::recommend::Verdict;
 use crate::study::tuning::tally::Detection;
+use crate::study::tuning::watch::Method;
 
 /// A share in %, with as many digits as matter.
 pub fn percent(share: f64) -> String {
@@ -26,9 +27,9 @@ pub fn interval(rate: &Rate) -> String {
 
 fn place(view: &View<'_>) -> String {
     match view.study.cells()[0].scenario.contact.place {
-        Place::Nowhere => "nothing".into(),
-        Place::Disk(disk) => format!("disk {disk}"),
-        Place::ArcLength(s) => format!("{:.1} mm", s * 1e3),
+        Place::Nowhere => "nowhere".into(),
+        Place::Disk(disk) => format!("on disk {disk}"),
+        Place::ArcLength(s) => format!("at {} mm", number(s * 1e3, 1)),
     }
 }
 
@@ -65,17 +66,17 @@ fn found(seen: &Detection, place: &str) -> String {
         return String::new();
     }
     if of == 0 {
-        return format!(" Every run alarms before it touches {place}.");
+        return " Every run alarms before touch.".into();
     }
     let mut text = match (count, seen.median.is_nan()) {
-        (0, _) => format!(" Contact on {place} is never found in time, within {} s.", LATE),
+        (0, _) => format!(" Contact {place} is never found in time, within {} s.", LATE),
         (_, true) => format!(
-            " Contact on {place} is found in {count} of {of} only, {} s after touch on average.",
+            " Contact {place} is found in {count} of {of} only, {} s after touch on average.",
             number(seen.mean, 2)
         ),
-        (_, false) if count == of => format!(" Contact on {place} is found {} s after touch", number(seen.median, 2)),
+        (_, false) if count == of => format!(" Contact {place} is found {} s after touch", number(seen.median, 2)),
         (_, false) => {
-            format!(" Contact on {place} is found in {count} of {of}, {} s after touch", number(seen.median, 2))
+            format!(" Contact {place} is found in {count} of {of}, {} s after touch", number(seen.median, 2))
         }
     };
     if !seen.median.is_nan() {
@@ -113,8 +114,9 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
         Verdict::Take { cell, level, point } => {
             let length = view.study.cells()[*cell].scenario.filter.length;
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
+            let filter = if view.tuning.method == Method::Jfd { String::new() } else { format!(", N = {length}") };
             let text = format!(
-                "Soonest with at most {wish} % false alarms: {}, N = {length} finds it {} s after touch, with {} of {} free runs alarming ({}).",
+                "Soonest with at most {wish} % false alarms: {}{filter} finds it {} s after touch, with {} of {} free runs alarming ({}).",
                 setting(&named, point.threshold),
                 number(delay, 2),
                 point.false_alarms.rate.count,
