@@ -220,6 +220,19 @@ impl Study {
         }
     }
 
+    /// The batch to go on with among those wanted, so that cells are known one after the other, each with and without
+    /// contact alike.
+    #[must_use]
+    pub fn next(&self, wanted: impl Fn(usize) -> bool) -> Option<usize> {
+        let repeats = self.spec.repeats as u64;
+        let runs = |batch: &usize| self.batches[*batch].tally.runs;
+        let left = |cell: &Cell| {
+            let both = [Some(cell.free), cell.held].into_iter().flatten();
+            both.filter(|batch| wanted(*batch) && runs(batch) < repeats).min_by_key(runs)
+        };
+        self.cells.iter().find_map(left)
+    }
+
     /// The batches that are not complete.
     #[must_use]
     pub fn missing(&self) -> Vec<usize> {
@@ -319,8 +332,7 @@ fn first_sample(plan: &Plan, time: f64) -> usize {
 /// A piece is one run.
 impl Job for Study {
     fn step(&mut self) {
-        let repeats = self.spec.repeats as u64;
-        if let Some(batch) = self.batches.iter().position(|batch| batch.tally.runs < repeats) {
+        if let Some(batch) = self.next(|_| true) {
             let firsts = self.run((batch, self.batches[batch].tally.runs as usize));
             self.add(batch, &firsts);
         }

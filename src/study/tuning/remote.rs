@@ -13,7 +13,7 @@ pub struct Request {
     pub id: u32,
     /// The study.
     pub spec: Spec,
-    /// The batches to make, in this order.
+    /// The batches to make.
     pub batches: Vec<usize>,
 }
 
@@ -51,22 +51,17 @@ impl Remote {
     /// # Errors
     /// When it is none, or asks for what cannot be.
     pub fn new(request: &str) -> Result<Self, String> {
-        let Request { id, spec, mut batches } = serde_json::from_str(request).map_err(|error| error.to_string())?;
+        let Request { id, spec, batches } = serde_json::from_str(request).map_err(|error| error.to_string())?;
         let study = Study::new(spec).map_err(|error| error.to_string())?;
-        batches.retain(|&batch| batch < study.batches().len());
         Ok(Self { id, study, batches, grown: Vec::new() })
     }
 
     /// Makes one run; returns whether any are left.
     pub fn step(&mut self) -> bool {
-        let repeats = self.study.spec().repeats as u64;
-        let runs = |study: &Study, batch: usize| study.batches()[batch].tally.runs;
-        let Some(&batch) = self.batches.iter().find(|&&batch| runs(&self.study, batch) < repeats) else {
-            return false;
-        };
-        let firsts = self.study.run((batch, runs(&self.study, batch) as usize));
+        let Some(batch) = self.study.next(|batch| self.batches.contains(&batch)) else { return false };
+        let firsts = self.study.run((batch, self.study.batches()[batch].tally.runs as usize));
         self.study.add(batch, &firsts);
-        if self.grown.last() != Some(&batch) {
+        if !self.grown.contains(&batch) {
             self.grown.push(batch);
         }
         true
