@@ -17,10 +17,8 @@ fn page_of(size: Vec2) -> Page {
 
 fn build(builder: HarnessBuilder<Option<App>>, gpu: Option<RenderState>) -> Page {
     let ui = move |ui: &mut egui::Ui, app: &mut Option<App>| {
-        app.get_or_insert_with(|| {
-            App::new(ui.ctx(), gpu.as_ref(), Host { prefers_reduced_motion: true, ..Host::default() })
-        })
-        .ui(ui);
+        let host = || Host { prefers_reduced_motion: true, ..Host::default() };
+        app.get_or_insert_with(|| App::new(ui.ctx(), gpu.as_ref(), host())).ui(ui);
     };
     let setup = centrode::app::theme::install;
     builder.with_step_dt(0.1).with_theme(egui::Theme::Dark).with_context_setup(setup).build_ui_state(ui, None)

@@ -109,7 +109,7 @@ fn legend(ui: &Ui, rect: Rect, view: &View<'_>) {
         let ink = if method == view.tuning.method { view.theme.ink } else { view.theme.dim };
         let galley = ui.painter().layout_job(job(name, 11.0, ink));
         let wide = galley.size().x;
-        if rect.width() < 380.0 && method != view.tuning.method {
+        if rect.width() < 470.0 && method != view.tuning.method {
             continue;
         }
         ui.painter().galley(pos2(right - wide, rect.top() + 1.0), galley, ink);
