@@ -83,11 +83,13 @@ fn it_says_what_the_thresholds_achieve_and_which_to_take() {
     let now = said(&page, "free runs");
     assert!(now.contains("of 100 free runs") && now.contains("Contact on disk 2 is found"), "{now}");
     assert!(!said(&page, "Soonest with at most 5").is_empty());
+    assert!(said(&page, "centrode study").contains("--preset bench --repeats 100 --sweep filter.length=50,100"));
     page.get_by_role_and_label(Role::Button, "Take it").click();
     page.run_steps(2);
     finish(&mut page);
     let scenario = &app(&page).state().scenario;
     assert_ne!((scenario.filter.length, scenario.detection.xi2), (500, Threshold::On(0.007)));
+    assert!(said(&page, "centrode study").contains("study my.toml"));
     // What was advised is set now, and the live run uses it.
     let threshold = scenario.detection.xi2.value().expect("on") * 1e3;
     let now = said(&page, "Now, ");

@@ -10,6 +10,7 @@ mod words;
 use super::Inputs;
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::notation::job;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::tuner::Cells;
@@ -29,6 +30,8 @@ const BESIDE: f32 = 700.0;
 /// Least height of a picture.
 const LEAST: f32 = 176.0;
 const GAP: f32 = 12.0;
+/// Height of the command below the pictures.
+const FOOT: f32 = 20.0;
 /// A finger holds what is this near, points.
 const REACH: f32 = 32.0;
 /// The shares of false alarms that can be wished for.
@@ -139,7 +142,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
         let used = ui.cursor().top() - top;
         let (columns, rows) = if beside { (2, 2) } else { (1, 4) };
         let width = (ui.available_width() - GAP * (columns - 1) as f32) / columns as f32;
-        let room = (rect.height() - used - GAP * (rows - 1) as f32) / rows as f32;
+        let room = (rect.height() - used - FOOT - GAP * (rows - 1) as f32) / rows as f32;
         let height = room.max(LEAST);
         let (_, area) = ui.allocate_space(vec2(ui.available_width(), height * rows as f32 + GAP * (rows - 1) as f32));
         let place = |k: usize| {
@@ -151,8 +154,26 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
         curves::delay(ui, place(1), &view, out);
         delays::histogram(ui, place(2), &view, out);
         lengths::map(ui, place(3), &view, version, picture, out);
+        ui.add(Label::new(job(&command(inputs), 11.5, theme.dim)).wrap().selectable(true));
     };
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| all(ui));
+}
+
+/// The command that makes this study, with all its numbers.
+fn command(inputs: &Inputs<'_>) -> String {
+    let (name, base) = inputs.base;
+    let lengths = inputs.tuner.shown().map_or(&[][..], |(_, cells, _)| &cells.lengths);
+    let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
+    let (scenario, hint) = if base == inputs.run.plan.scenario() {
+        (format!("--preset {name}"), "")
+    } else {
+        ("my.toml".into(), "   (my.toml: this scenario)")
+    };
+    format!(
+        "centrode study {scenario} --repeats {} --sweep filter.length={} --csv study.csv{hint}",
+        inputs.tuning.repeats,
+        lengths.join(",")
+    )
 }
 
 fn derive(study: &Study, cells: &Cells, version: u64, tuning: Tuning) -> Derived {
