@@ -142,6 +142,21 @@ impl Chromium {
         }
     }
 
+    /// Evaluates in the page. Where one page gives way to the next just then, the next is asked.
+    #[track_caller]
+    pub fn evaluate(&mut self, parameters: &Value) -> Value {
+        let start = Instant::now();
+        loop {
+            match self.try_call("Runtime.evaluate", parameters.clone()) {
+                Ok(result) => return result,
+                Err(error) if error.contains("navigated or closed") && start.elapsed() < ANSWER => {
+                    thread::sleep(Duration::from_millis(50));
+                }
+                Err(error) => panic!("Runtime.evaluate: {error}\n{}", self.log()),
+            }
+        }
+    }
+
     fn send(&mut self, method: &str, parameters: Value) -> Result<(), String> {
         self.last_id += 1;
         let mut message = json!({ "id": self.last_id, "method": method, "params": parameters });

@@ -143,9 +143,8 @@ impl Page {
     /// Evaluates JavaScript, awaiting promises.
     #[track_caller]
     pub fn eval(&mut self, script: &str) -> Value {
-        let mut result = self
-            .chromium
-            .call("Runtime.evaluate", json!({ "expression": script, "returnByValue": true, "awaitPromise": true }));
+        let parameters = json!({ "expression": script, "returnByValue": true, "awaitPromise": true });
+        let mut result = self.chromium.evaluate(&parameters);
         if let Some(exception) = result.get("exceptionDetails") {
             panic!("{script}: {exception}");
         }
