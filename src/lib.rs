@@ -30,6 +30,7 @@ pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod experiment;
+pub mod fingerprints;
 pub mod model;
 #[cfg(feature = "app")]
 pub mod render;

@@ -196,3 +196,13 @@ pub fn fingerprint(scenario_toml: &str) -> String {
         Err(error) => error.to_string(),
     }
 }
+
+/// The hashes of [`crate::fingerprints`] as a JSON object, to be compared with the stored ones.
+#[wasm_bindgen]
+#[must_use]
+pub fn fingerprints() -> String {
+    match crate::fingerprints::fingerprints() {
+        Ok(all) => serde_json::json!(all).to_string(),
+        Err(error) => error.to_string(),
+    }
+}

@@ -31,6 +31,16 @@ fn every_preset_has_the_same_bits_as_natively() {
 }
 
 #[test]
+fn everything_computed_has_the_stored_fingerprint() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    let ours = page.eval("centrode.fingerprints()");
+    let ours: serde_json::Value = serde_json::from_str(ours.as_str().expect("text")).expect("JSON");
+    let stored: serde_json::Value =
+        serde_json::from_str(include_str!("../data/fingerprints.json")).expect("stored fingerprints");
+    assert_eq!(ours, stored);
+}
+
+#[test]
 fn controls_give_what_the_headless_command_gives() {
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     assert_eq!(page.number("detectionTime"), headless(&[]), "as it opens");

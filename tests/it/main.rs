@@ -7,6 +7,7 @@ mod documented;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
+mod fingerprints;
 mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
