@@ -1,12 +1,13 @@
 //! How long the core takes: `cargo bench`. Compare ratios within one run; absolute times differ between machines.
 
-use centrode::experiment::preset::find;
-use centrode::experiment::{Plan, Scenario, Simulation, simulate};
-use centrode::model::{Configuration, Constrained, Rate, locate};
-use centrode::study::Job;
-use centrode::study::map::MapJob;
-use centrode::study::table2::{PAPER_REPEATS, Table2Job};
-use centrode::study::tuning::{Spec, Study};
+use centrode_core::model::{Configuration, Constrained, Rate, locate};
+use centrode_core::run::{Simulation, simulate};
+use centrode_core::scenario::preset::find;
+use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::study::Job;
+use centrode_core::study::map::MapJob;
+use centrode_core::study::table2::{PAPER_REPEATS, Table2Job};
+use centrode_core::study::tuning::{Spec, Study};
 use criterion::{Criterion, criterion_group, criterion_main};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use std::hint::black_box;
@@ -79,7 +80,7 @@ fn tuning(c: &mut Criterion) {
                     let firsts = study.run(piece);
                     counted.lock().expect("no panic").add(piece.0, &firsts);
                 });
-                counted.into_inner().expect("no panic").point(0, centrode::study::tuning::watch::Method::Fcd, 69)
+                counted.into_inner().expect("no panic").point(0, centrode_core::study::tuning::watch::Method::Fcd, 69)
             });
         });
     }

@@ -1,11 +1,11 @@
 //! What one frame of each view costs on the CPU: `cargo bench --features app --bench views`.
 
-use centrode::app::plane::plane;
-use centrode::app::plots::{PlotState, plots};
-use centrode::experiment::preset::find;
-use centrode::experiment::simulate;
+use centrode::app::charts::plane::plane;
+use centrode::app::charts::plots::{PlotState, plots};
 use centrode::scene::palette::Palette;
-use centrode::scene::view::{ViewOptions, view};
+use centrode::show::{ViewOptions, view};
+use centrode_core::run::simulate;
+use centrode_core::scenario::preset::find;
 use criterion::{Criterion, criterion_group, criterion_main};
 use egui::vec2;
 use std::hint::black_box;

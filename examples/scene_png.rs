@@ -1,9 +1,10 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
-use centrode::app::viewport::{ViewState, viewport};
+use centrode::app::stages::viewport::{ViewState, viewport};
 use centrode::app::{layout, theme};
-use centrode::experiment::{preset, simulate};
+use centrode_core::run::simulate;
+use centrode_core::scenario::preset;
 use egui_kittest::Harness;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 

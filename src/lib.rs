@@ -1,40 +1,16 @@
 //! Centrode: see and tune contact detection on a continuum robot.
 //!
-//! SI units and radians inside; millimetres and degrees exist only where a person reads or types.
-//! Base frame {B}: origin at the base disk's centre, `z` along the straight backbone, `x` through backbone 1.
-//!
-//! | quantity | equation | function |
-//! | --- | --- | --- |
-//! | joint values, their Jacobian and inverse | 2 | [`model::joints`] |
-//! | pose p(s), R(s) | 3, 4 | [`model::Arc::pose`] |
-//! | Jacobian J_xψ(s), twist | 7–9 | [`model::Arc::jacobian`], [`model::Jacobian::twist`] |
-//! | energy and gradient | 10 | [`model::Segment::energy`], [`model::Segment::energy_gradient`] |
-//! | joint forces | 11 | [`model::Segment::joint_forces`] |
-//! | joint force deviation Θ | 12 | [`model::Segment::residual`] |
-//! | load cell error | 13–15 | [`experiment::cells`] |
-//! | detectability bound ε_c | 16 | [`model::Segment::common_error_bound`], [`model::Segment::independent_error_bound`] |
-//! | fixed centrode | 17, 18 | [`model::centrode::centrode`], [`model::Jacobian::centrode`] |
-//! | detection by fixed centrode deviation | 19 | [`experiment::detector::Detector`] |
-//! | constrained segment and its centrode | 20–23 | [`model::Constrained`] |
-//! | location of the contact | 24 | [`model::locate`] |
-//! | Figures 3, 4, 6, 7, 8 | | [`study::figure`] |
-//! | Table II | | [`study::table2`] |
-//! | what can be seen at all | 16, 19 | [`study::map`] |
-//! | false alarms, delay, which threshold to take | | [`study::tuning`] |
-//!
-//! Read [`model`], then [`experiment`], then [`study`] and [`scene`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
-//! `tests/it/misprints.rs` shows it.
+//! The numbers come from [`centrode_core`]; here they are shown. [`scene`] is what the 3D view holds, as plain data; [`show`] makes
+//! it from a run at an instant. With the feature `app`, `render` draws a scene with wgpu and `app` is the interface; with `cli`,
+//! `cli` is the headless command.
 
 #[cfg(feature = "app")]
 pub mod app;
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod experiment;
-pub mod fingerprints;
-pub mod model;
 #[cfg(feature = "app")]
 pub mod render;
 pub mod scene;
-pub mod study;
+pub mod show;
 #[cfg(all(feature = "app", target_arch = "wasm32"))]
 mod web;

@@ -6,9 +6,10 @@
 mod widgets;
 mod worker;
 
-use crate::app::tuner::Helper;
+use crate::app::stages::tuner::Helper;
 use crate::app::{App, Host};
-use crate::experiment::{Scenario, simulate};
+use centrode_core::run::simulate;
+use centrode_core::scenario::Scenario;
 use eframe::wgpu;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -197,11 +198,11 @@ pub fn fingerprint(scenario_toml: &str) -> String {
     }
 }
 
-/// The hashes of [`crate::fingerprints`] as a JSON object, to be compared with the stored ones.
+/// The hashes of [`centrode_core::fingerprints`] as a JSON object, to be compared with the stored ones.
 #[wasm_bindgen]
 #[must_use]
 pub fn fingerprints() -> String {
-    match crate::fingerprints::fingerprints() {
+    match centrode_core::fingerprints::fingerprints() {
         Ok(all) => serde_json::json!(all).to_string(),
         Err(error) => error.to_string(),
     }

@@ -1,8 +1,8 @@
 //! The paper on the page, headless: every figure, Table II and the map, chosen, drawn, and used.
 
-use centrode::app::stage::Stage;
+use centrode::app::stages::stage::Stage;
 use centrode::app::{App, Host};
-use centrode::experiment::scenario::{Place, Start};
+use centrode_core::scenario::{Place, Start};
 use egui::accesskit::Role;
 use egui::{Vec2, pos2, vec2};
 use egui_kittest::Harness;

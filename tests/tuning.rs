@@ -1,9 +1,9 @@
 //! The tuning view, headless: what it says, what a drag does, and how it looks.
 
-use centrode::app::stage::Stage;
+use centrode::app::stages::stage::Stage;
 use centrode::app::{App, Host};
-use centrode::experiment::scenario::Threshold;
-use centrode::study::tuning::watch::Method;
+use centrode_core::scenario::Threshold;
+use centrode_core::study::tuning::watch::Method;
 use egui::accesskit::Role;
 use egui::{Event, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::Harness;

@@ -120,11 +120,11 @@ fn every_named_slider_is_there_and_moves_the_scenario() {
         assert!(app(&page).run().plan.scenario() == &app(&page).state().scenario, "{label}");
         assert_eq!(slider(&page, label).accesskit_node().numeric_value(), Some(value), "{label}");
     }
-    let mut by_hand = centrode::experiment::preset::PRESETS[0].scenario().expect("preset");
-    by_hand.contact.place = centrode::experiment::scenario::Place::Disk(3);
+    let mut by_hand = centrode_core::scenario::preset::PRESETS[0].scenario().expect("preset");
+    by_hand.contact.place = centrode_core::scenario::Place::Disk(3);
     click(&mut page, "Reset all");
     slide(&mut page, "Contact disk", 3.0);
-    let expected = centrode::experiment::simulate(&by_hand).expect("run");
+    let expected = centrode_core::run::simulate(&by_hand).expect("run");
     assert_eq!(app(&page).run().fingerprint(), expected.fingerprint());
     assert_eq!(report(&page)["detection_time"].as_f64(), expected.detection.map(|detection| detection.time));
 }
@@ -347,7 +347,7 @@ fn presets_theme_groups_and_help() {
     click(&mut page, "Robot");
     click(&mut page, "Tracker");
     click(&mut page, "aligned");
-    assert_eq!(app(&page).state().scenario.tracker.mounting, centrode::experiment::scenario::Mounting::Aligned);
+    assert_eq!(app(&page).state().scenario.tracker.mounting, centrode_core::scenario::Mounting::Aligned);
     click(&mut page, "Theme: system");
     assert!(page.query_by_label("Theme: light").is_some());
     click(&mut page, "Help");

@@ -1,10 +1,11 @@
 //! The live plots and the bending plane, headless: what a pointer or a keyboard does, and what they look like.
 
+use centrode::app::charts::plane::plane;
+use centrode::app::charts::plots::{PlotState, plots};
 use centrode::app::command::Command;
-use centrode::app::plane::plane;
-use centrode::app::plots::{PlotState, plots};
-use centrode::experiment::scenario::Threshold;
-use centrode::experiment::{Run, Scenario, preset, simulate};
+use centrode_core::run::{Run, simulate};
+use centrode_core::scenario::Threshold;
+use centrode_core::scenario::{Scenario, preset};
 use egui::{Key, Pos2, Rect, Vec2, pos2, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;

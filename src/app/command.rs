@@ -1,11 +1,11 @@
-//! What the interface asks for. Panels and views emit commands; [`super::App`] applies them, and nothing else does.
+//! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
-use super::control::{Choice, Control};
-use super::stage::Stage;
-use super::state::{Tab, Tuning};
-use crate::experiment::preset::Preset;
-use crate::experiment::scenario::Threshold;
-use crate::study::tuning::watch::Method;
+use crate::app::controls::control::{Choice, Control};
+use crate::app::stages::stage::Stage;
+use crate::app::state::{Tab, Tuning};
+use centrode_core::scenario::Threshold;
+use centrode_core::scenario::preset::Preset;
+use centrode_core::study::tuning::watch::Method;
 
 /// One wish.
 #[derive(Debug, Clone)]

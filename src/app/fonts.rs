@@ -61,8 +61,9 @@ pub fn install(ctx: &egui::Context) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::{panels, table};
-    use crate::experiment::preset::PRESETS;
+    use crate::app::controls::table;
+    use crate::app::words;
+    use centrode_core::scenario::preset::PRESETS;
     use egui::epaint::text::{Fonts, TextOptions};
 
     #[test]
@@ -81,10 +82,10 @@ mod tests {
         for preset in PRESETS {
             texts.extend([preset.name.into(), preset.summary().into()]);
         }
-        for (title, body) in panels::help::PARAGRAPHS {
+        for (title, body) in words::help::PARAGRAPHS {
             texts.extend([(*title).into(), (*body).into()]);
         }
-        texts.extend(panels::help::KEYS.iter().flat_map(|(key, what)| [(*key).into(), (*what).into()]));
+        texts.extend(words::help::KEYS.iter().flat_map(|(key, what)| [(*key).into(), (*what).into()]));
 
         let mut fonts = Fonts::new(TextOptions::default(), definitions());
         let mut view = fonts.with_pixels_per_point(1.0);

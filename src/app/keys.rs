@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers, Ui};
 
-use super::command::Command;
+use crate::app::command::Command;
 
 /// Reads the keys that play. Whatever has the focus keeps its keys.
 pub fn read(ui: &Ui, end: f64, out: &mut Vec<Command>) {

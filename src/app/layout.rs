@@ -2,8 +2,8 @@
 
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
-use super::panels::transport::{FLAT, TALL};
-use super::theme::GAP;
+use crate::app::panels::transport::{FLAT, TALL};
+use crate::app::theme::GAP;
 
 /// The rectangles of the page. What is not there is not shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,16 +168,16 @@ impl Layout {
 
 /// Shows a card with content that stays inside it.
 pub fn card<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
-    let theme = super::theme::Theme::of(ui);
-    ui.painter().rect_filled(rect, f32::from(super::theme::ROUND), theme.panel);
+    let theme = crate::app::theme::Theme::of(ui);
+    ui.painter().rect_filled(rect, f32::from(crate::app::theme::ROUND), theme.panel);
     inside(ui, name, rect, content)
 }
 
 /// Rounds the corners of a card whose content fills it.
 pub fn round(ui: &Ui, rect: Rect) {
-    let theme = super::theme::Theme::of(ui);
+    let theme = crate::app::theme::Theme::of(ui);
     let edge = egui::Stroke::new(0.5 * GAP, theme.surface);
-    ui.painter().rect_stroke(rect, f32::from(super::theme::ROUND), edge, egui::StrokeKind::Outside);
+    ui.painter().rect_stroke(rect, f32::from(crate::app::theme::ROUND), edge, egui::StrokeKind::Outside);
 }
 
 /// Shows content in a rectangle.

@@ -2,7 +2,8 @@
 
 use thiserror::Error;
 
-use crate::experiment::{Plan, Run, Scenario, ScenarioError, simulate};
+use centrode_core::run::{Run, simulate};
+use centrode_core::scenario::{Plan, Scenario, ScenarioError};
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
 pub const MAX_SAMPLES: usize = 200_000;

@@ -1,21 +1,26 @@
 //! What can stand on the stage in the robot's place: a figure, Table II, the map.
 
-mod chart;
 mod figure;
 mod map;
+pub mod stage;
+pub mod studies;
 mod table;
+pub mod tuner;
 mod tuning;
+pub mod viewport;
 
-use super::command::Command;
-use super::stage::Stage;
-use super::state::Tuning;
-use super::studies::{Found, Studies};
-use super::theme::Theme;
-use super::tuner::Tuner;
-use super::widgets::segmented::segmented;
-use super::widgets::text;
-use super::{fonts, notation};
-use crate::experiment::{Run, Scenario};
+use crate::app::charts::notation;
+use crate::app::command::Command;
+use crate::app::fonts;
+use crate::app::stages::stage::Stage;
+use crate::app::stages::studies::{Found, Studies};
+use crate::app::stages::tuner::Tuner;
+use crate::app::state::Tuning;
+use crate::app::theme::Theme;
+use crate::app::widgets::segmented::segmented;
+use crate::app::widgets::text;
+use centrode_core::run::Run;
+use centrode_core::scenario::Scenario;
 use egui::{Align2, Rect, Ui, pos2, vec2};
 use map::Picture;
 use tuning::TuningState;

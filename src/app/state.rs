@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use super::stage::Stage;
-use super::table;
-use super::theme::ThemeChoice;
-use crate::experiment::Scenario;
-use crate::experiment::preset::{self, PRESETS, Preset};
-use crate::study::tuning::watch::Method;
+use crate::app::controls::table;
+use crate::app::stages::stage::Stage;
+use crate::app::theme::ThemeChoice;
+use centrode_core::scenario::Scenario;
+use centrode_core::scenario::preset::{self, PRESETS, Preset};
+use centrode_core::study::tuning::watch::Method;
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
 const LEAD_IN: f64 = 0.4;

@@ -6,7 +6,7 @@
 use egui::{Color32, CornerRadius, Margin, Shadow, Stroke, vec2};
 use serde::{Deserialize, Serialize};
 
-use super::fonts;
+use crate::app::fonts;
 use crate::scene::Color;
 use crate::scene::palette::Palette;
 

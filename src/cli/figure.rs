@@ -3,8 +3,8 @@
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
 use super::output::{Failure, NewFile, cell, finish_csv, write_record};
-use crate::study::Job;
-use crate::study::figure::{Axis, Figure, FigureJob, Mark, Number, Style};
+use centrode_core::study::Job;
+use centrode_core::study::figure::{Axis, Figure, FigureJob, Mark, Number, Style};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;

@@ -3,9 +3,9 @@
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
-use crate::experiment::{Plan, Scenario};
-use crate::study::Job;
-use crate::study::map::{Map, MapJob, largest_deviation, largest_epsilon};
+use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::study::Job;
+use centrode_core::study::map::{Map, MapJob, largest_deviation, largest_epsilon};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -85,7 +85,7 @@ impl MapArgs {
     /// Computes and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario()?;
-        let refused = |error: crate::experiment::ScenarioError| Failure::Input(error.to_string());
+        let refused = |error: centrode_core::scenario::ScenarioError| Failure::Input(error.to_string());
         let plan = Plan::new(&scenario).map_err(refused)?;
         let mut job = MapJob::new(&scenario, self.columns.into(), self.rows.into()).map_err(refused)?;
         let kind = self.out.as_deref().map(Kind::of).transpose()?;

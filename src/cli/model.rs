@@ -1,11 +1,11 @@
 //! `centrode model`: every quantity of the model in one configuration.
 
 use super::output::{Failure, json};
-use crate::experiment::plan::{LENGTHS, MAX_TURN, RADII, check_bend};
-use crate::experiment::scenario::Robot;
-use crate::experiment::text::number;
-use crate::model::joints::{joint_jacobian, joints};
-use crate::model::{Configuration, Constrained, Rate, Segment};
+use centrode_core::model::joints::{joint_jacobian, joints};
+use centrode_core::model::{Configuration, Constrained, Rate, Segment};
+use centrode_core::scenario::Robot;
+use centrode_core::scenario::plan::{LENGTHS, MAX_TURN, RADII, check_bend};
+use centrode_core::scenario::text::number;
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;

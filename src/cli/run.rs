@@ -2,7 +2,9 @@
 
 use super::ScenarioArgs;
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
-use crate::experiment::{CHANNELS, Crossing, Detection, Method, Plan, Sample, Scenario, Simulation};
+use centrode_core::detect::{Crossing, Detection, Method};
+use centrode_core::run::{CHANNELS, Sample, Simulation};
+use centrode_core::scenario::{Plan, Scenario};
 use clap::Args;
 use serde::Serialize;
 use std::io::Write;

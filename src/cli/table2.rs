@@ -2,9 +2,9 @@
 
 use super::ScenarioArgs;
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
-use crate::experiment::Scenario;
-use crate::study::Job;
-use crate::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
+use centrode_core::scenario::Scenario;
+use centrode_core::study::Job;
+use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};

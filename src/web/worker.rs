@@ -4,8 +4,8 @@
 //! the page (`web/loader.js`) and keeps what comes back until the next frame.
 
 use super::with_hooks;
-use crate::app::tuner::Helper;
-use crate::study::tuning::remote::Remote;
+use crate::app::stages::tuner::Helper;
+use centrode_core::study::tuning::remote::Remote;
 use std::cell::{Cell, RefCell};
 use wasm_bindgen::prelude::*;
 

@@ -1,8 +1,8 @@
 //! The page computes what the headless command computes, to the last bit, and shows it.
 
 use crate::harness::{Area, Options, Page, Renderer};
-use centrode::experiment::preset::PRESETS;
-use centrode::experiment::simulate;
+use centrode_core::run::simulate;
+use centrode_core::scenario::preset::PRESETS;
 use std::process::Command;
 
 /// Detection time (s) that `centrode run` gives for the preset on which the page opens, with overrides.

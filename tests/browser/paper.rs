@@ -1,10 +1,10 @@
 //! The paper on the page: what the browser works out is what the core works out natively.
 
 use crate::harness::{Options, Page, Renderer};
-use centrode::experiment::preset::{PRESETS, find};
-use centrode::study::Job;
-use centrode::study::figure::{FigureJob, Number};
-use centrode::study::table2::Table2Job;
+use centrode_core::scenario::preset::{PRESETS, find};
+use centrode_core::study::Job;
+use centrode_core::study::figure::{FigureJob, Number};
+use centrode_core::study::table2::Table2Job;
 
 /// Picks something for the stage from the menu.
 fn show(page: &mut Page, name: &str) {

@@ -1,7 +1,7 @@
 //! The tuning study in the browser: beside the page in a worker, or between its frames, with the command's numbers.
 
 use crate::harness::{Options, Page, Renderer};
-use centrode::experiment::preset::PRESETS;
+use centrode_core::scenario::preset::PRESETS;
 use serde_json::Value;
 use std::process::Command;
 

@@ -1,9 +1,12 @@
 //! Known answers of the simulated experiment (`docs/MODEL.md`), and what every setting must do.
 
-use centrode::experiment::plant::Plant;
-use centrode::experiment::preset::PRESETS;
-use centrode::experiment::scenario::{Averaging, Mounting, Place, Scenario, Start, Threshold};
-use centrode::experiment::{CHANNELS, Method, Plan, Run, Shape, simulate};
+use centrode_core::detect::Method;
+use centrode_core::plant::Plant;
+use centrode_core::plant::Shape;
+use centrode_core::run::{CHANNELS, Run, simulate};
+use centrode_core::scenario::Plan;
+use centrode_core::scenario::preset::PRESETS;
+use centrode_core::scenario::{Averaging, Mounting, Place, Scenario, Start, Threshold};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 fn contact(disk: u64, time: f64) -> Scenario {

@@ -1,8 +1,8 @@
 //! `centrode figure` and the drawings of `centrode map`, as files.
 
-use centrode::experiment::preset::find;
-use centrode::study::Job;
-use centrode::study::figure::{Figure, FigureJob, Number};
+use centrode_core::scenario::preset::find;
+use centrode_core::study::Job;
+use centrode_core::study::figure::{Figure, FigureJob, Number};
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};

@@ -2,7 +2,7 @@
 //!
 //! Where one is meant to: `UPDATE_SNAPSHOTS=1 cargo test --test it fingerprints`, and a line in the changelog that says why.
 
-use centrode::fingerprints::{Fingerprints, fingerprints};
+use centrode_core::fingerprints::{Fingerprints, fingerprints};
 
 #[test]
 fn everything_computed_has_the_stored_fingerprint() {

@@ -1,10 +1,12 @@
 //! Joint forces as the load cells see them: errors, preload, a wrench on the end disk, and both rules of ξ1.
 
-use centrode::experiment::cells::SimulatedCells;
-use centrode::experiment::plant::Plant;
-use centrode::experiment::scenario::{CellErrors, Place, Scenario, Xi1Rule};
-use centrode::experiment::{Method, Plan, Run, preset, simulate};
-use centrode::model::{Vec3, Wrench};
+use centrode_core::detect::Method;
+use centrode_core::model::{Vec3, Wrench};
+use centrode_core::plant::Plant;
+use centrode_core::run::{Run, simulate};
+use centrode_core::scenario::{CellErrors, Place, Scenario, Xi1Rule};
+use centrode_core::scenario::{Plan, preset};
+use centrode_core::sensors::cells::SimulatedCells;
 
 /// Without contact, with a preload (N) and related cell errors.
 fn free(errors: CellErrors, preload: f64) -> Scenario {
@@ -116,7 +118,7 @@ fn xi1_off_silences_both_rules() {
     for rule in [Xi1Rule::Constant, Xi1Rule::Bound] {
         let mut scenario = preset::find("load-at-rest").and_then(|preset| preset.scenario()).expect("a preset");
         scenario.detection.xi1_rule = rule;
-        scenario.detection.xi1 = centrode::experiment::scenario::Threshold::OFF;
+        scenario.detection.xi1 = centrode_core::scenario::Threshold::OFF;
         assert_eq!(alarms(&run(&scenario), Method::Jfd), 0);
     }
 }
@@ -168,7 +170,7 @@ fn perfect_cells_show_the_wrench_as_its_work_on_the_shape() {
     let sample = run.sample_at(5.5);
     let force = Vec3::from(scenario.load.force);
     let work = |theta_l: f64, delta: f64| {
-        let configuration = centrode::model::Configuration::from_theta_l(theta_l, delta);
+        let configuration = centrode_core::model::Configuration::from_theta_l(theta_l, delta);
         run.plan.segment().arc(configuration).pose(run.plan.segment().length).position.dot(&force)
     };
     let (theta, delta, h) = (sample.theta_l, 0.7, 1e-6);

@@ -1,7 +1,7 @@
 //! Every quantity of the model against the 40-digit reference.
 
-use centrode::model::joints::{configuration_from_joints, joint_jacobian, joints};
-use centrode::model::{Configuration, Constrained, Rate, Segment};
+use centrode_core::model::joints::{configuration_from_joints, joint_jacobian, joints};
+use centrode_core::model::{Configuration, Constrained, Rate, Segment};
 use serde::Deserialize;
 
 #[derive(Deserialize)]

@@ -1,9 +1,10 @@
 //! The detectability map against the simulation it foretells.
 
-use centrode::experiment::scenario::{Place, Scenario, Start};
-use centrode::experiment::{Plan, Simulation};
-use centrode::study::Job;
-use centrode::study::map::{MapJob, largest_deviation, largest_epsilon};
+use centrode_core::run::Simulation;
+use centrode_core::scenario::Plan;
+use centrode_core::scenario::{Place, Scenario, Start};
+use centrode_core::study::Job;
+use centrode_core::study::map::{MapJob, largest_deviation, largest_epsilon};
 use std::f64::consts::PI;
 
 type Change = fn(&mut Scenario);
@@ -101,7 +102,7 @@ fn shows(scenario: &Scenario, epsilon: f64, error: f64) -> bool {
     let plan = Plan::new(&scenario).expect("valid");
     let segment = *plan.segment();
     Simulation::new(&plan).filter(|s| s.in_contact && s.time >= scenario.detection.armed_from).any(|sample| {
-        let configuration = centrode::model::Configuration::from_theta_l(sample.theta_l, scenario.motion.delta);
+        let configuration = centrode_core::model::Configuration::from_theta_l(sample.theta_l, scenario.motion.delta);
         let tau_lc = sample.tau_lc / (1.0 - error);
         segment.residual(&configuration, &tau_lc) > segment.common_error_bound(&configuration, &tau_lc, epsilon)
     })
@@ -135,7 +136,7 @@ fn the_map_is_made_of_its_cells_and_may_be_looked_at_before_it_is_done() {
     let map = job.map();
     for (row, &arc_length) in map.arc_lengths.iter().enumerate() {
         for (column, &bend) in map.bends.iter().enumerate() {
-            let contact = centrode::experiment::plan::PlannedContact::beyond(arc_length, bend, &scenario.motion);
+            let contact = centrode_core::scenario::plan::PlannedContact::beyond(arc_length, bend, &scenario.motion);
             let cell = map.cell(row, column);
             assert_eq!(map.nearest(arc_length, bend), Some((column, row)));
             assert_eq!(map.deviation[cell].to_bits(), largest_deviation(&plan, &contact).to_bits());

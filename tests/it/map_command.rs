@@ -1,9 +1,9 @@
 //! `centrode map` as a program meets it.
 
 use crate::cli::{centrode, json, scratch};
-use centrode::experiment::Scenario;
-use centrode::study::Job;
-use centrode::study::map::MapJob;
+use centrode_core::scenario::Scenario;
+use centrode_core::study::Job;
+use centrode_core::study::map::MapJob;
 
 #[test]
 fn json_and_csv_hold_the_library_s_map() {

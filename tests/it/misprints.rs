@@ -3,8 +3,8 @@
 //! "Right" is the derivative of Eqs. 3 and 4 in dual numbers, and Eqs. 11 and 14 where statics are concerned.
 
 use crate::support::{arc, position, rotation, segment};
-use centrode::model::joints::joint_jacobian;
-use centrode::model::{Configuration, Mat3, Vec3};
+use centrode_core::model::joints::joint_jacobian;
+use centrode_core::model::{Configuration, Mat3, Vec3};
 use num_dual::Dual64;
 use std::f64::consts::FRAC_PI_2;
 

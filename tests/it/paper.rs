@@ -1,12 +1,12 @@
 //! What the paper's text says of its measurements, held against simulated runs. Where the two disagree, `docs/PAPER.md` says so.
 
-use centrode::experiment::preset::find;
-use centrode::experiment::scenario::{Place, Scenario, Start, Threshold};
-use centrode::experiment::{Run, simulate};
-use centrode::study::Job;
-use centrode::study::figure::{Figure, FigureJob, Number, Role, Style};
-use centrode::study::seed::repeat_seed;
-use centrode::study::table2::{Statistic, Table2, Table2Job};
+use centrode_core::run::{Run, simulate};
+use centrode_core::scenario::preset::find;
+use centrode_core::scenario::{Place, Scenario, Start, Threshold};
+use centrode_core::study::Job;
+use centrode_core::study::figure::{Figure, FigureJob, Number, Role, Style};
+use centrode_core::study::seed::repeat_seed;
+use centrode_core::study::table2::{Statistic, Table2, Table2Job};
 use std::f64::consts::FRAC_PI_2;
 
 fn preset(name: &str) -> Scenario {

@@ -1,8 +1,8 @@
 //! What must hold for every configuration.
 
 use crate::support::{about_z, arc, assert_near, position, rotation, segment};
-use centrode::model::joints::{configuration_from_joints, joint_jacobian_per_bend, joints};
-use centrode::model::{Configuration, Constrained, Mat3, Rate, Vec3, Wrench, locate};
+use centrode_core::model::joints::{configuration_from_joints, joint_jacobian_per_bend, joints};
+use centrode_core::model::{Configuration, Constrained, Mat3, Rate, Vec3, Wrench, locate};
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};

@@ -1,11 +1,12 @@
 //! The renderer, looked at by its pixels.
 
-use centrode::experiment::{preset, simulate};
 use centrode::render::{Frame, Renderer, ViewId};
-use centrode::scene::view::{ViewOptions, home_camera, view};
 use centrode::scene::{
     Block, Camera, Color, Finish, Ground, Line, Marker, Pose, Scene, Shape, Solid, Studio, palette::Palette,
 };
+use centrode::show::{ViewOptions, home_camera, view};
+use centrode_core::run::simulate;
+use centrode_core::scenario::preset;
 use glam::{Quat, Vec2, Vec3};
 
 use crate::gpu::{Gpu, Picture, render};

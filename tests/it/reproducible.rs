@@ -1,7 +1,8 @@
 //! The same scenario gives the same bits. The browser tests compare these fingerprints with the page's.
 
-use centrode::experiment::preset::PRESETS;
-use centrode::experiment::{Scenario, simulate};
+use centrode_core::run::simulate;
+use centrode_core::scenario::Scenario;
+use centrode_core::scenario::preset::PRESETS;
 
 #[test]
 fn a_scenario_has_one_fingerprint() {

@@ -1,10 +1,10 @@
 //! `centrode study` as a program meets it.
 
 use crate::cli::{centrode, json, scratch};
-use centrode::experiment::preset::find;
-use centrode::study::Job;
-use centrode::study::tuning::watch::Method;
-use centrode::study::tuning::{Spec, Study};
+use centrode_core::scenario::preset::find;
+use centrode_core::study::Job;
+use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::{Spec, Study};
 use serde_json::Value;
 use std::process::{Command, Stdio};
 

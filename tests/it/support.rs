@@ -1,6 +1,6 @@
 //! What several subjects need.
 
-use centrode::model::{Arc, Configuration, Mat3, Segment, Vec3};
+use centrode_core::model::{Arc, Configuration, Mat3, Segment, Vec3};
 use num_dual::{Dual64, DualNum};
 use std::f64::consts::FRAC_PI_2;
 

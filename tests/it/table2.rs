@@ -1,10 +1,11 @@
 //! The paper's Table II and the simulated one.
 
-use centrode::experiment::preset::find;
-use centrode::experiment::scenario::Threshold;
-use centrode::experiment::{Scenario, simulate};
-use centrode::study::Job;
-use centrode::study::table2::{MAX_REPEATS, Outcome, PRESETS, Table2Job};
+use centrode_core::run::simulate;
+use centrode_core::scenario::Scenario;
+use centrode_core::scenario::Threshold;
+use centrode_core::scenario::preset::find;
+use centrode_core::study::Job;
+use centrode_core::study::table2::{MAX_REPEATS, Outcome, PRESETS, Table2Job};
 
 fn preset(name: &str) -> Scenario {
     find(name).and_then(|preset| preset.scenario()).expect(name)

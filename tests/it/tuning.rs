@@ -1,15 +1,16 @@
 //! The study of thresholds, held against single runs and against what is known beforehand.
 
-use centrode::experiment::detector::Method as Lamp;
-use centrode::experiment::preset::find;
-use centrode::experiment::scenario::{Place, Threshold, Xi1Rule};
-use centrode::experiment::{Scenario, simulate};
-use centrode::study::Job;
-use centrode::study::seed::repeat_seed;
-use centrode::study::tuning::recommend::{Verdict, Wish, recommend};
-use centrode::study::tuning::remote::{Answer, Remote, Request};
-use centrode::study::tuning::watch::{Method, NEVER};
-use centrode::study::tuning::{Spec, Study};
+use centrode_core::detect::detector::Method as Lamp;
+use centrode_core::run::simulate;
+use centrode_core::scenario::Scenario;
+use centrode_core::scenario::preset::find;
+use centrode_core::scenario::{Place, Threshold, Xi1Rule};
+use centrode_core::study::Job;
+use centrode_core::study::seed::repeat_seed;
+use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend};
+use centrode_core::study::tuning::remote::{Answer, Remote, Request};
+use centrode_core::study::tuning::watch::{Method, NEVER};
+use centrode_core::study::tuning::{Spec, Study};
 
 fn noisy(sets: &[&str]) -> Scenario {
     let mut draft = find("bench").and_then(|preset| preset.draft()).expect("bench");

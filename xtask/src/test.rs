@@ -29,7 +29,7 @@ enum Stage {
     Lint,
     /// No warning from the documentation
     Doc,
-    /// The pure part alone: model, experiment and all that needs neither command nor interface
+    /// The core alone, and the root package without command and interface
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
@@ -82,9 +82,9 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Lint => lint(),
         Stage::Doc => doc(),
-        Stage::Pure => {
-            run(cargo().args(["test", "--package", "centrode", "--no-default-features", "--"]).args(&options.arguments))
-        }
+        Stage::Pure => run(cargo()
+            .args(["test", "--package", "centrode-core", "--package", "centrode", "--no-default-features", "--"])
+            .args(&options.arguments)),
         Stage::Native => {
             tools::software_gpu()?;
             run(cargo().args(["test", "--workspace", "--all-features", "--"]).args(&options.arguments))

@@ -3,9 +3,9 @@
 use egui::{Align2, Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 
 use crate::app::fonts;
-use crate::app::story::Phase;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
+use crate::app::words::story::Phase;
 
 /// How long the pulse takes, s.
 const PULSE: f64 = 0.7;

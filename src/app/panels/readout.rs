@@ -3,10 +3,10 @@
 use egui::{Align2, ScrollArea, Sense, Ui, vec2};
 
 use crate::app::fonts;
-use crate::app::story::{self, Figure};
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
-use crate::experiment::Run;
+use crate::app::words::story::{self, Figure};
+use centrode_core::run::Run;
 
 /// Shows the readout.
 pub fn readout(ui: &mut Ui, run: &Run) {

@@ -6,12 +6,12 @@ use egui::{
 
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::stage::Stage;
+use crate::app::stages::stage::Stage;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
-use crate::experiment::preset::{PRESETS, Preset};
+use centrode_core::scenario::preset::{PRESETS, Preset};
 
 /// A preset's name as the page writes it.
 #[must_use]

@@ -2,19 +2,19 @@
 
 use egui::{Align2, Rect, Shape, Stroke, Ui, pos2, vec2};
 
+use crate::app::charts::notation::number;
 use crate::app::command::Command;
-use crate::app::control::Scale;
+use crate::app::controls::control::Scale;
+use crate::app::controls::quantity;
 use crate::app::fonts;
-use crate::app::notation::number;
-use crate::app::quantity;
 use crate::app::state::State;
-use crate::app::story::Phase;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::slider::{self, Slider};
 use crate::app::widgets::text;
-use crate::experiment::Run;
+use crate::app::words::story::Phase;
+use centrode_core::run::Run;
 
 /// Height in one row, points.
 pub const FLAT: f32 = 52.0;

@@ -1,14 +1,14 @@
 //! A figure of the paper, as it is made here.
 
-use super::Inputs;
-use super::chart::{Chart, Side, range_of};
-use crate::app::legend::{self, Form};
-use crate::app::notation::{self, job, number};
-use crate::app::plots::Steps;
+use crate::app::charts::axes::{Chart, Side, range_of};
+use crate::app::charts::legend::{self, Form};
+use crate::app::charts::notation::{self, job, number};
+use crate::app::charts::plots::Steps;
+use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use crate::app::widgets::text::rich;
 use crate::scene::colormap::member;
-use crate::study::figure::{Axis, Figure, Mark, Role, Style};
+use centrode_core::study::figure::{Axis, Figure, Mark, Role, Style};
 use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 /// From this width on the legend stands beside the data.

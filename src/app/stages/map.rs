@@ -1,15 +1,15 @@
 //! What can be seen at all: two maps over bend and place of the contact.
 
-use super::Inputs;
-use super::chart::{Chart, NAME, Side};
+use crate::app::charts::axes::{Chart, NAME, Side};
+use crate::app::charts::notation::{self, job, number};
+use crate::app::charts::plots::Steps;
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::notation::{self, job, number};
-use crate::app::plots::Steps;
+use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use crate::scene::colormap::colormap;
-use crate::study::map::Map;
-use crate::study::map::contour::contour;
+use centrode_core::study::map::Map;
+use centrode_core::study::map::contour::contour;
 use egui::{
     Align2, Color32, ColorImage, CursorIcon, FontId, Label, Painter, Rect, Sense, Stroke, TextureHandle,
     TextureOptions, Ui, pos2, vec2,
@@ -229,7 +229,7 @@ fn bar(painter: &Painter, data: Rect, kind: &Kind, top: f64, theme: &Theme) {
         let [r, g, b, _] = colormap(f64::from(k) / f64::from(steps - 1)).to_bytes();
         painter.rect_filled(Rect::from_x_y_ranges(bar.x_range(), to..=from + 0.5), 0.0, Color32::from_rgb(r, g, b));
     }
-    let axis = crate::app::plots::Axis::new([0.0, top * kind.scale], [bar.bottom(), bar.top()]);
+    let axis = crate::app::charts::plots::Axis::new([0.0, top * kind.scale], [bar.bottom(), bar.top()]);
     for tick in axis.ticks(40.0, Steps::Decimal) {
         let at = pos2(bar.right() + 4.0, axis.at(tick.value));
         painter.text(at, Align2::LEFT_CENTER, tick.text, FontId::proportional(10.5), theme.dim);

@@ -1,9 +1,9 @@
 //! Table II twice: the paper's, and the simulated one.
 
+use crate::app::charts::notation::{job, number};
 use crate::app::fonts;
-use crate::app::notation::{job, number};
 use crate::app::theme::Theme;
-use crate::study::table2::{Disk, Statistic, Table2};
+use centrode_core::study::table2::{Disk, Statistic, Table2};
 use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.

@@ -7,18 +7,18 @@ mod delays;
 mod lengths;
 mod words;
 
-use super::Inputs;
+use crate::app::charts::notation::job;
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::notation::job;
+use crate::app::stages::Inputs;
+use crate::app::stages::tuner::Cells;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
-use crate::app::tuner::Cells;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
-use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
-use crate::study::tuning::watch::Method;
-use crate::study::tuning::{Point, Study};
+use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
+use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::{Point, Study};
 use egui::{
     Align2, Color32, CursorIcon, Label, Pos2, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
     WidgetInfo, pos2, vec2,
@@ -49,7 +49,7 @@ pub struct Named {
 
 impl Named {
     fn of(method: Method, study: &Study) -> Self {
-        use crate::experiment::scenario::Xi1Rule;
+        use centrode_core::scenario::Xi1Rule;
         let name = match method {
             Method::Fcd => "Centrode",
             Method::Jfd => "Forces",

@@ -3,9 +3,9 @@
 use egui::text::CCursorRange;
 use egui::{Align, Align2, Id, Key, Layout, Margin, Rect, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, vec2};
 
-use super::text;
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::text;
 
 /// What a field shows.
 pub struct Field<'a> {

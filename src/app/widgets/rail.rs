@@ -1,7 +1,7 @@
 //! How values lie along a slider.
 
-use crate::app::control::Scale;
-use crate::app::quantity::round_to;
+use crate::app::controls::control::Scale;
+use crate::app::controls::quantity::round_to;
 
 /// The share of a logarithmic rail that stands for zero.
 const ZERO: f64 = 0.05;

@@ -2,9 +2,9 @@
 
 use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
-use super::text;
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::text;
 
 /// Shows the options side by side; returns the one that was clicked.
 pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen: usize) -> Option<usize> {

@@ -4,9 +4,9 @@ use egui::accesskit::{Action, ActionData};
 use egui::style::ScrollAnimation;
 use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
 
-use super::rail::Rail;
-use crate::app::control::Scale;
+use crate::app::controls::control::Scale;
 use crate::app::theme::Theme;
+use crate::app::widgets::rail::Rail;
 
 /// Radius of a handle, points.
 pub const HANDLE: f32 = 7.0;

@@ -3,7 +3,7 @@
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Ui};
 
-use crate::app::notation;
+use crate::app::charts::notation;
 
 /// Paints a line of text; returns where it is.
 pub fn paint(ui: &Ui, at: Pos2, align: Align2, text: &str, font: FontId, color: Color32) -> Rect {

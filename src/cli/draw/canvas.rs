@@ -248,9 +248,9 @@ fn rgba(color: Color) -> RGBAColor {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::experiment::preset;
-    use crate::study::Job;
-    use crate::study::figure::{FigureJob, Number};
+    use centrode_core::scenario::preset;
+    use centrode_core::study::Job;
+    use centrode_core::study::figure::{FigureJob, Number};
 
     fn pixels(character: char) -> Vec<(i32, i32)> {
         let mut pixels = Vec::new();

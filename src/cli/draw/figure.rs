@@ -6,7 +6,7 @@ use super::{Drawing, Format, bytes};
 use crate::scene::Color;
 use crate::scene::colormap::member;
 use crate::scene::palette::Palette;
-use crate::study::figure::{Axis, Figure, Mark, Role, Style};
+use centrode_core::study::figure::{Axis, Figure, Mark, Role, Style};
 
 const PAGE: [f64; 2] = [1200.0, 820.0];
 /// Space at the sides.

@@ -3,12 +3,12 @@
 use super::canvas::{Align, Canvas, Look, Paper, Point, width};
 use super::ticks::ticks;
 use super::{Format, bytes};
-use crate::experiment::Plan;
 use crate::scene::Color;
 use crate::scene::colormap::colormap;
 use crate::scene::palette::Palette;
-use crate::study::map::Map;
-use crate::study::map::contour::contour;
+use centrode_core::scenario::Plan;
+use centrode_core::study::map::Map;
+use centrode_core::study::map::contour::contour;
 
 /// The page.
 const SIZE: [f64; 2] = [1280.0, 640.0];

@@ -6,11 +6,11 @@ use super::{Format, bytes};
 use crate::scene::Color;
 use crate::scene::colormap::member;
 use crate::scene::palette::Palette;
-use crate::study::Job;
-use crate::study::tuning::rate::{percents, spread};
-use crate::study::tuning::recommend::{Verdict, Wish};
-use crate::study::tuning::watch::Method;
-use crate::study::tuning::{Point, Study};
+use centrode_core::study::Job;
+use centrode_core::study::tuning::rate::{percents, spread};
+use centrode_core::study::tuning::recommend::{Verdict, Wish};
+use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::{Point, Study};
 
 /// The page.
 const SIZE: [f64; 2] = [1280.0, 660.0];

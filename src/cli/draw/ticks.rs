@@ -1,6 +1,6 @@
 //! Ranges of axes, and round numbers on them.
 
-use crate::study::figure::{Axis, Figure};
+use centrode_core::study::figure::{Axis, Figure};
 
 /// Room beyond what is drawn, where no range is given, in shares of the range.
 const MARGIN: f64 = 0.05;

@@ -1,9 +1,9 @@
 //! Every threshold of every cell as CSV.
 
 use crate::cli::output::{Failure, NewFile, cell, finish_csv, write_record};
-use crate::study::tuning::Study;
-use crate::study::tuning::rate::Rate;
-use crate::study::tuning::watch::Method;
+use centrode_core::study::tuning::Study;
+use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::watch::Method;
 
 /// Columns after those of the swept keys. Thresholds are ξ2 in m, or ξ1 in N·m, or k where ξ1 follows the shape.
 const COLUMNS: [&str; 27] = [

@@ -1,12 +1,12 @@
 //! A study in words and a table.
 
-use crate::experiment::scenario::Xi1Rule;
-use crate::study::Job;
-use crate::study::tuning::rate::Rate;
-use crate::study::tuning::recommend::{Verdict, Wish, recommend_among};
-use crate::study::tuning::tally::Detection;
-use crate::study::tuning::watch::Method;
-use crate::study::tuning::{Point, Study};
+use centrode_core::scenario::Xi1Rule;
+use centrode_core::study::Job;
+use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
+use centrode_core::study::tuning::tally::Detection;
+use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::{Point, Study};
 use std::io::{self, Write};
 
 /// Width of method and threshold.

@@ -1,7 +1,7 @@
 //! The runs of a study, on all cores.
 
-use crate::study::Job;
-use crate::study::tuning::Study;
+use centrode_core::study::Job;
+use centrode_core::study::tuning::Study;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::iter::{ParallelBridge, ParallelIterator};
 use std::io::{self, IsTerminal, Write};

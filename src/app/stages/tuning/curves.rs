@@ -3,18 +3,18 @@
 //! Shares lie on an arcsine scale: both ends, where thresholds are chosen, are spread, and intervals from equally many
 //! runs are about equally wide everywhere.
 
-use super::words::{digits, percent};
-use super::{Named, REACH, View, color, taken, title};
+use crate::app::charts::axes::Chart;
+use crate::app::charts::notation::{self, job, number};
+use crate::app::charts::plots::{Steps, Tick};
 use crate::app::command::Command;
-use crate::app::notation::{self, job, number};
-use crate::app::plots::{Steps, Tick};
-use crate::app::stages::chart::Chart;
+use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuning::words::{digits, percent};
+use crate::app::stages::tuning::{Named, REACH, View, color, taken, title};
 use crate::app::theme::Theme;
-use crate::app::tuner::LATE;
-use crate::study::tuning::Point;
-use crate::study::tuning::rate::{percents, spread};
-use crate::study::tuning::recommend::Verdict;
-use crate::study::tuning::watch::Method;
+use centrode_core::study::tuning::Point;
+use centrode_core::study::tuning::rate::{percents, spread};
+use centrode_core::study::tuning::recommend::Verdict;
+use centrode_core::study::tuning::watch::Method;
 use egui::{Color32, CursorIcon, Mesh, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Which value stands on the vertical axis: the value itself, and the ends of its interval, as shown.

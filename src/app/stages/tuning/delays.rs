@@ -1,14 +1,14 @@
 //! When contact is found: a histogram of the delays for each disk, with those that alarm before and those missed.
 
-use super::{REACH, View, color, taken, title};
+use crate::app::charts::axes::Chart;
+use crate::app::charts::notation::{job, number};
+use crate::app::charts::plots::Steps;
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::notation::{job, number};
-use crate::app::plots::Steps;
-use crate::app::stages::chart::Chart;
-use crate::app::tuner::LATE;
+use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuning::{REACH, View, color, taken, title};
 use crate::app::widgets::text;
-use crate::study::tuning::tally::Count;
+use centrode_core::study::tuning::tally::Count;
 use egui::{Align2, CursorIcon, Painter, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 /// Bars over the delays that are in time.

@@ -1,13 +1,13 @@
 //! Filter length by threshold: how late contact is found, where false alarms are rare enough.
 
-use super::{Named, REACH, View, taken, title};
+use crate::app::charts::notation::{self, job, number};
+use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::notation::{self, job, number};
-use crate::app::plots::{Axis, Steps};
-use crate::app::tuner::LATE;
+use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuning::{Named, REACH, View, taken, title};
 use crate::scene::colormap::colormap;
-use crate::study::tuning::recommend::Verdict;
+use centrode_core::study::tuning::recommend::Verdict;
 use egui::{
     Align2, Color32, ColorImage, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui,
     WidgetInfo, pos2, vec2,
@@ -67,7 +67,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
     let unit = if named.unit.is_empty() { named.symbol.into() } else { format!("{} ({})", named.symbol, named.unit) };
     let name = painter.layout_job(job(&unit, 12.0, theme.ink));
     painter.galley(pos2(rect.left() + 4.0, data.top() - 17.0), name, theme.ink);
-    let hint = format!("faded: more than {} % may alarm", super::words::wished(view.tuning.wish));
+    let hint = format!("faded: more than {} % may alarm", crate::app::stages::tuning::words::wished(view.tuning.wish));
     if rect.width() > 300.0 {
         let at = pos2(data.right(), data.top() - 4.0);
         painter.text(at, Align2::RIGHT_BOTTOM, hint, fonts::regular(11.0), theme.dim);
@@ -108,7 +108,8 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
         view.take_threshold(threshold, Some(lengths[k].0), out);
     } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
         let (k, level) = under(at);
-        let mut lines = super::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);
+        let mut lines =
+            crate::app::stages::tuning::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);
         lines.insert(1, job(&format!("N = {}", lengths[k].0), 11.5, theme.ink));
         notation::note(&painter, theme, at, data, lines);
     }

@@ -1,13 +1,13 @@
 //! What the study says, in sentences.
 
-use super::{Named, View};
-use crate::app::notation::number;
-use crate::app::tuner::LATE;
-use crate::experiment::scenario::Place;
-use crate::study::tuning::rate::Rate;
-use crate::study::tuning::recommend::Verdict;
-use crate::study::tuning::tally::Detection;
-use crate::study::tuning::watch::Method;
+use crate::app::charts::notation::number;
+use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuning::{Named, View};
+use centrode_core::scenario::Place;
+use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::recommend::Verdict;
+use centrode_core::study::tuning::tally::Detection;
+use centrode_core::study::tuning::watch::Method;
 
 /// A share in %, with as many digits as matter.
 pub fn percent(share: f64) -> String {

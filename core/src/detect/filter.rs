@@ -1,0 +1,232 @@
+//! The moving average over the tracker's readings, and the backward difference behind it.
+
+use crate::model::orientation::{Quaternion, from_euler_sin_cos, quaternion_from_euler, vector_of_ratio, vee};
+use crate::model::{Mat3, Twist, Vec3};
+use crate::scenario::{Averaging, Filter};
+use crate::sensors::tracker::Reading;
+use libm::{sincos, sqrt};
+
+/// The mean of the last N vectors, at a cost that does not depend on N.
+///
+/// The running sum carries its rounding errors in a second number (an error-free two-sum), so that an hour of
+/// adding and subtracting leaves it as exact as a sum made afresh. Until N vectors have come, the mean is that
+/// of those that have.
+#[derive(Debug, Clone)]
+pub struct MovingAverage<const D: usize> {
+    length: usize,
+    ring: Vec<[f64; D]>,
+    oldest: usize,
+    sum: [f64; D],
+    error: [f64; D],
+    mean: [f64; D],
+}
+
+impl<const D: usize> MovingAverage<D> {
+    /// An average over `length` vectors, at least 1.
+    #[must_use]
+    pub fn new(length: usize) -> Self {
+        let length = length.max(1);
+        Self { length, ring: Vec::new(), oldest: 0, sum: [0.0; D], error: [0.0; D], mean: [0.0; D] }
+    }
+
+    /// Takes one vector in and returns the mean and its change since the one before.
+    ///
+    /// The change is exactly zero when the vector that comes equals the one that goes. The first is zero.
+    pub fn push(&mut self, next: &[f64; D]) -> ([f64; D], [f64; D]) {
+        let growing = self.ring.len() < self.length;
+        // What a new vector is measured against: while the mean grows, the mean itself.
+        let gone = match (self.ring.first(), growing) {
+            (None, _) => *next,
+            (Some(_), true) => self.mean,
+            (Some(_), false) => self.ring[self.oldest],
+        };
+        if growing {
+            self.ring.push(*next);
+        } else {
+            let oldest = std::mem::replace(&mut self.ring[self.oldest], *next);
+            self.oldest = if self.oldest + 1 == self.length { 0 } else { self.oldest + 1 };
+            for (i, x) in oldest.iter().enumerate() {
+                self.add(i, -x);
+            }
+        }
+        let share = 1.0 / self.ring.len() as f64;
+        let mut change = [0.0; D];
+        for (i, x) in next.iter().enumerate() {
+            self.add(i, *x);
+            change[i] = (x - gone[i]) * share;
+            // What does not change keeps its bits: a robot at rest has no speed, not one of a rounding error.
+            if change[i] != 0.0 || share == 1.0 {
+                self.mean[i] = (self.sum[i] + self.error[i]) * share;
+            }
+        }
+        (self.mean, change)
+    }
+
+    fn add(&mut self, i: usize, x: f64) {
+        let sum = self.sum[i] + x;
+        let rounded = sum - self.sum[i];
+        self.error[i] += (self.sum[i] - (sum - rounded)) + (x - rounded);
+        self.sum[i] = sum;
+    }
+}
+
+/// Position and motion of the end disk as the sensor shows them, in {B}.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    /// p_s, m.
+    pub position: Vec3,
+    /// ṗ_s (m/s) and ω_s (rad/s).
+    pub twist: Twist,
+}
+
+/// The filter of the whole pose. A value: it can be fed a sensor's readings or a model's.
+#[derive(Debug, Clone)]
+pub struct PoseFilter {
+    position: MovingAverage<3>,
+    orientation: Orientation,
+    rate: f64,
+}
+
+#[derive(Debug, Clone)]
+enum Orientation {
+    Readings { average: MovingAverage<3>, sin_cos: [(f64, f64); 3], before: Option<Mat3> },
+    Rotations { average: MovingAverage<4>, last: Option<([f64; 3], Quaternion)>, before: Quaternion },
+}
+
+impl PoseFilter {
+    /// A filter of the given settings in a loop of `rate` Hz.
+    #[must_use]
+    pub fn new(settings: &Filter, rate: f64) -> Self {
+        let length = settings.length as usize;
+        let orientation = match settings.averaging {
+            Averaging::Readings => {
+                Orientation::Readings { average: MovingAverage::new(length), sin_cos: [(0.0, 1.0); 3], before: None }
+            }
+            Averaging::Rotations => {
+                Orientation::Rotations { average: MovingAverage::new(length), last: None, before: [0.0; 4] }
+            }
+        };
+        Self { position: MovingAverage::new(length), orientation, rate }
+    }
+
+    /// Takes one reading in; the motion is the backward difference of the averages.
+    pub fn push(&mut self, reading: &Reading) -> Motion {
+        let (position, step) = self.position.push(&reading.position.into());
+        let turn = self.orientation.push(&reading.angles);
+        Motion {
+            position: position.into(),
+            twist: Twist { linear: Vec3::from(step) * self.rate, angular: turn * self.rate },
+        }
+    }
+}
+
+impl Orientation {
+    /// The rotation vector of the last step in {B}, rad: `[Ω_s]^∨ Δt` with Ω_s = Ṙ_s R_sᵀ (Eq. 18), in which the
+    /// constant mounting R̃_g cancels.
+    fn push(&mut self, angles: &[f64; 3]) -> Vec3 {
+        match self {
+            Self::Readings { average, sin_cos, before } => {
+                let (mean, change) = average.push(angles);
+                let previous = *before;
+                if previous.is_some() && change == [0.0; 3] {
+                    return Vec3::zeros();
+                }
+                // In most experiments one of the three angles moves: the sines of the others stay.
+                for i in 0..3 {
+                    if previous.is_none() || change[i] != 0.0 {
+                        sin_cos[i] = sincos(mean[i]);
+                    }
+                }
+                let rotation = from_euler_sin_cos(sin_cos);
+                *before = Some(rotation);
+                previous.map_or_else(Vec3::zeros, |previous| vee(&(rotation * previous.transpose())))
+            }
+            Self::Rotations { average, last, before } => {
+                let quaternion = match *last {
+                    Some((same, quaternion)) if same == *angles => quaternion,
+                    _ => {
+                        // A rotation has two quaternions: take the one on the side of the reading before.
+                        let fresh = quaternion_from_euler(angles);
+                        let turned = last.is_some_and(|(_, old)| dot(&fresh, &old) < 0.0);
+                        let quaternion = if turned { fresh.map(|x| -x) } else { fresh };
+                        *last = Some((*angles, quaternion));
+                        quaternion
+                    }
+                };
+                let (mean, change) = average.push(&quaternion);
+                let previous = std::mem::replace(before, mean);
+                let size = sqrt(dot(&previous, &previous) * dot(&mean, &mean));
+                if size > 0.0 { vector_of_ratio(&change, &previous) * (2.0 / size) } else { Vec3::zeros() }
+            }
+        }
+    }
+}
+
+fn dot(a: &Quaternion, b: &Quaternion) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Readings as multiples of 2⁻⁴⁰ below 1: sums of them are exact in i64.
+    fn reading(k: u64) -> i64 {
+        (k.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407) >> 24) as i64 - (1 << 39)
+    }
+
+    #[test]
+    fn does_not_drift_over_an_hour() {
+        let unit = 1.0 / (1i64 << 40) as f64;
+        // A large step that comes and goes is what spoils a plain running sum.
+        let step = |k: u64| {
+            if (1_000_000..1_000_100).contains(&k) { 1_000_000_000 } else { 1 }
+        };
+        let length = 500;
+        let mut average = MovingAverage::<1>::new(length);
+        let mut exact = 0i128;
+        for k in 0..3_600_000u64 {
+            let value = i128::from(reading(k)) * step(k);
+            exact += value;
+            if let Some(old) = k.checked_sub(length as u64) {
+                exact -= i128::from(reading(old)) * step(old);
+            }
+            let mean = average.push(&[reading(k) as f64 * step(k) as f64 * unit]).0[0];
+            if k > 3_500_000 {
+                let reference = exact as f64 * unit / length as f64;
+                assert!((mean - reference).abs() <= 2.0 * f64::EPSILON * reference.abs(), "{k}: {mean} {reference}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_length_of_one_is_the_reading_itself() {
+        let mut average = MovingAverage::<1>::new(1);
+        for k in 0..1000 {
+            let x = reading(k) as f64 * 1e-3;
+            assert_eq!(average.push(&[x]).0[0], x);
+        }
+    }
+
+    #[test]
+    fn before_it_is_full_it_averages_what_has_come() {
+        let mut average = MovingAverage::<1>::new(10);
+        for k in 1..=5 {
+            let mean = average.push(&[f64::from(k)]).0[0];
+            assert_eq!(mean, f64::from(k + 1) / 2.0);
+        }
+    }
+
+    #[test]
+    fn changes_add_up_to_the_mean() {
+        let mut average = MovingAverage::<2>::new(7);
+        let mut sum = average.push(&[0.3, -1.0]).0;
+        for k in 0..100 {
+            let (mean, change) = average.push(&[reading(k) as f64 * 1e-12, f64::from(k as u32)]);
+            for i in 0..2 {
+                sum[i] += change[i];
+                assert!((sum[i] - mean[i]).abs() < 1e-12, "{k}");
+            }
+        }
+    }
+}

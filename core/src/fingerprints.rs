@@ -1,0 +1,81 @@
+//! One hash for each thing that the program computes: the net that tells whether a change moved a number.
+//!
+//! Natively and in the page the hashes are those of `tests/data/fingerprints.json`. Words are left out, numbers are all in.
+
+use crate::run::{Run, simulate};
+use crate::scenario::preset::{PRESETS, find};
+use crate::scenario::{Scenario, ScenarioError};
+use crate::study::Job;
+use crate::study::figure::{Figure, FigureJob, Number};
+use crate::study::map::MapJob;
+use crate::study::table2::Table2Job;
+use crate::study::tuning::watch::Method;
+use crate::study::tuning::{Spec, Study};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// The name of each thing and its hash, 16 hexadecimal digits.
+pub type Fingerprints = BTreeMap<String, String>;
+
+/// Runs every preset, makes every figure, Table II (5 repeats), the map (20 × 20) and a study (50 repeats of three filters),
+/// and hashes what comes of them.
+///
+/// # Errors
+/// When a preset of the program is impossible, which a test would have shown.
+pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
+    let mut all = Fingerprints::new();
+    let mut add = |name: String, hash: u64| {
+        all.insert(name, format!("{hash:016x}"));
+    };
+    for preset in PRESETS {
+        let run = simulate(&preset.scenario()?)?;
+        add(format!("run {}", preset.name), run.fingerprint());
+        add(format!("verdict {}", preset.name), hash(&verdict(&run)));
+    }
+    for number in Number::ALL {
+        let mut job = FigureJob::new(number, &find(number.preset())?.scenario()?)?;
+        job.finish();
+        add(format!("figure {number}"), hash(&figure(&job.figure())));
+    }
+    let noisy = noisy()?;
+    let mut job = Table2Job::new(&noisy, 5)?;
+    job.finish();
+    add("table2".into(), hash(&json!({ "table": job.table(), "rows": job.rows() })));
+    let mut job = MapJob::new(&noisy, 20, 20)?;
+    job.finish();
+    let map = job.map();
+    let cells = json!([map.arc_lengths, map.bends, map.deviation, map.epsilon]);
+    add("map".into(), hash(&cells));
+    let cells = [200, 400, 600].map(|length| vec![format!("filter.length={length}")]).into();
+    let mut study = Study::new(Spec { scenario: noisy, repeats: 50, late: 1.0, cells, xi2: None, xi1: None })?;
+    study.finish();
+    let points = |cell| Method::ALL.map(|method| (method.name(), study.curve(cell, method)));
+    let curves: Vec<Value> = (0..study.cells().len()).map(|cell| json!(points(cell))).collect();
+    add("study".into(), hash(&json!(curves)));
+    Ok(all)
+}
+
+/// `bench`, with all noise that there is.
+fn noisy() -> Result<Scenario, ScenarioError> {
+    let mut draft = find("bench")?.draft()?;
+    draft.set("load_cells.noise=0.3")?;
+    draft.set("load_cells.errors=independent")?;
+    draft.finish()
+}
+
+fn verdict(run: &Run) -> Value {
+    json!([run.crossings, run.detection, run.contact_time])
+}
+
+fn figure(figure: &Figure) -> Value {
+    let series: Vec<Value> = figure.series.iter().map(|series| json!(series.points)).collect();
+    let verticals: Vec<f64> = figure.verticals.iter().map(|vertical| vertical.x).collect();
+    let spans: Vec<Value> = figure.spans.iter().map(|span| json!(span.ends)).collect();
+    json!([figure.x.range, figure.y.range, series, verticals, spans])
+}
+
+/// FNV-1a over the JSON text, in which every number has the digits that give its bits back.
+fn hash(value: &Value) -> u64 {
+    let byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+    value.to_string().as_bytes().iter().fold(0xcbf2_9ce4_8422_2325, byte)
+}

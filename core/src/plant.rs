@@ -1,0 +1,135 @@
+//! What the robot truly does: free, or held by the beam.
+
+use crate::model::configuration::bend_from_theta_l;
+use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Segment, Vec3, Wrench};
+use crate::scenario::Plan;
+use crate::scenario::motion::command;
+use crate::scenario::plan::PlannedContact;
+
+/// The true shape of the backbone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Shape {
+    /// One circular arc.
+    Free(Arc),
+    /// Held by the beam: two arcs.
+    Held(Constrained),
+}
+
+impl Shape {
+    /// Pose at arc length `s` (m, in [0, L]), in {B}.
+    #[must_use]
+    pub fn pose(&self, s: f64) -> Pose {
+        match self {
+            Self::Free(arc) => arc.pose(s),
+            Self::Held(held) => held.pose(s),
+        }
+    }
+
+    /// Pose of the end disk, in {B}.
+    #[must_use]
+    pub fn tip_pose(&self) -> Pose {
+        self.tip_pose_and_jacobian().0
+    }
+
+    /// Pose and Jacobian of the end disk, in {B}.
+    #[must_use]
+    pub fn tip_pose_and_jacobian(&self) -> (Pose, Jacobian) {
+        match self {
+            Self::Free(arc) => arc.pose_and_jacobian(arc.length),
+            Self::Held(held) => held.tip_pose_and_jacobian(),
+        }
+    }
+}
+
+/// The robot and its beam.
+#[derive(Debug, Clone)]
+pub struct Plant<'a> {
+    plan: &'a Plan,
+    plane: Configuration,
+}
+
+impl<'a> Plant<'a> {
+    /// The plant of a plan.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        Self { plan, plane: Configuration::new(0.0, plan.scenario().motion.delta) }
+    }
+
+    /// Commanded configuration and θ̇L (rad/s) at `time` (s).
+    #[must_use]
+    pub fn command(&self, time: f64) -> (Configuration, f64) {
+        let (theta_l, rate) = command(&self.plan.scenario().motion, time);
+        (self.plane.with_bend(bend_from_theta_l(theta_l)), rate)
+    }
+
+    /// Whether the beam holds the backbone in a commanded configuration.
+    #[must_use]
+    pub fn in_contact(&self, configuration: &Configuration) -> bool {
+        self.plan.contact().is_some_and(|contact| contact.holds_at(configuration.bend()))
+    }
+
+    /// The true shape in a commanded configuration.
+    #[must_use]
+    pub fn shape(&self, configuration: Configuration) -> Shape {
+        let length = self.plan.segment().length;
+        match self.plan.contact() {
+            Some(contact) if contact.holds_at(configuration.bend()) => {
+                Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration))
+            }
+            _ => Shape::Free(Arc { length, configuration }),
+        }
+    }
+
+    /// The wrench on the end disk at `time` (s), in {B}.
+    #[must_use]
+    pub fn wrench(&self, time: f64) -> Wrench {
+        let load = &self.plan.scenario().load;
+        let (since, rise) = (time - load.start, load.finish - load.start);
+        let share = match since {
+            before if before < 0.0 => 0.0,
+            after if after >= rise => 1.0,
+            within => within / rise,
+        };
+        Wrench { force: Vec3::from(load.force) * share, moment: Vec3::from(load.moment) * share }
+    }
+
+    /// True joint forces τ (N): by virtual work on the true shape they balance the gradient of its energy less the
+    /// work of `wrench` on the end disk (Eq. 11), plus the preload.
+    ///
+    /// NaN where the part above the beam bends so sharply that a secondary backbone would have no length left:
+    /// constant curvature says nothing there.
+    #[must_use]
+    pub fn joint_forces(&self, configuration: Configuration, wrench: &Wrench) -> Vec3 {
+        let segment = self.plan.segment();
+        let preload = self.plan.scenario().load_cells.preload;
+        let (part, shape) = moved_part(segment, self.plan.contact(), configuration);
+        if part.shortest_backbone(shape.bend()) <= 0.0 {
+            return Vec3::repeat(f64::NAN);
+        }
+        let mut load = part.energy_gradient(&shape);
+        if *wrench != Wrench::ZERO {
+            // Above a beam the Jacobian's bend is that part's own, as is the gradient's.
+            let jacobian = self.shape(configuration).tip_pose_and_jacobian().1;
+            load = load.minus(&jacobian.transposed_times(wrench));
+        }
+        part.forces_from_load(&shape, &load).add_scalar(preload)
+    }
+}
+
+/// The part of a segment that moves in a commanded configuration, and that part's own shape: all of it, or what is
+/// above the beam.
+#[must_use]
+pub fn moved_part(
+    segment: &Segment,
+    contact: Option<&PlannedContact>,
+    configuration: Configuration,
+) -> (Segment, Configuration) {
+    match contact {
+        Some(contact) if contact.holds_at(configuration.bend()) => {
+            let share = contact.arc_length / segment.length;
+            let upper = segment.shortened(segment.length - contact.arc_length);
+            (upper, configuration.with_bend(configuration.bend() - contact.bend * share))
+        }
+        _ => (*segment, configuration),
+    }
+}

@@ -1,0 +1,73 @@
+//! Scenarios that come with the program.
+
+use crate::scenario::text::Draft;
+use crate::scenario::{Scenario, ScenarioError};
+
+/// A scenario with a name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preset {
+    /// Name, as `--preset` takes it.
+    pub name: &'static str,
+    /// Its TOML; the first line is a comment that says what it shows.
+    pub toml: &'static str,
+}
+
+macro_rules! presets {
+    ($($name:literal),* $(,)?) => {
+        &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/", $name, ".toml")) }),*]
+    };
+}
+
+/// All of them; the page opens on the first.
+pub const PRESETS: &[Preset] = presets![
+    "bench",
+    "paper",
+    "disk-1",
+    "disk-3",
+    "free",
+    "mid-gap",
+    "static-resolution",
+    "gimbal-lock",
+    "letting-go",
+    "load-at-rest",
+    "figure-3",
+    "figure-4",
+    "figure-6",
+    "figure-7",
+    "figure-8",
+];
+
+impl Preset {
+    /// What it shows, in a sentence.
+    #[must_use]
+    pub fn summary(&self) -> &'static str {
+        self.toml.lines().next().unwrap_or_default().trim_start_matches('#').trim()
+    }
+
+    /// The scenario, open to overrides.
+    ///
+    /// # Errors
+    /// Never for the presets that are shipped; a test reads them all.
+    pub fn draft(&self) -> Result<Draft, ScenarioError> {
+        Draft::from_toml(self.toml)
+    }
+
+    /// The scenario.
+    ///
+    /// # Errors
+    /// Never for the presets that are shipped; a test reads them all.
+    pub fn scenario(&self) -> Result<Scenario, ScenarioError> {
+        self.draft()?.finish()
+    }
+}
+
+/// The preset of a name.
+///
+/// # Errors
+/// When there is none, with the names that exist.
+pub fn find(name: &str) -> Result<&'static Preset, ScenarioError> {
+    PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| ScenarioError::UnknownPreset {
+        name: name.into(),
+        known: PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", "),
+    })
+}

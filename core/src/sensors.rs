@@ -1,0 +1,5 @@
+//! What is measured of the robot: truth in, readings out.
+
+pub mod cells;
+pub mod noise;
+pub mod tracker;

@@ -1,0 +1,100 @@
+//! The tracker: a marker's position and Euler angles, refreshed, aged, disturbed, rounded and held.
+
+use crate::model::orientation::{from_euler, to_euler};
+use crate::model::{Mat3, Vec3};
+use crate::plant::Plant;
+use crate::scenario::Plan;
+use crate::scenario::{Mounting, Tracker};
+use crate::sensors::noise::{Normal, Source};
+use libm::{floor, rint, sincos};
+use std::f64::consts::{PI, TAU};
+
+/// One reading of the tracker: x_s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Position of the marker, which sits at the centre of the end disk, in {B}, m.
+    pub position: Vec3,
+    /// Azimuth, elevation, roll of the marker in {B}, rad; whole turns are kept from reading to reading.
+    pub angles: [f64; 3],
+}
+
+/// The simulated tracker.
+#[derive(Debug, Clone)]
+pub struct SimulatedTracker {
+    settings: Tracker,
+    /// R̃_gᵀ: `tip_from_marker`.
+    tip_from_marker: Mat3,
+    noise: Normal,
+    held: Option<(f64, Reading)>,
+}
+
+impl SimulatedTracker {
+    /// The tracker of a plan.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Self {
+        let scenario = plan.scenario();
+        let tip_from_marker = match scenario.tracker.mounting {
+            Mounting::Aligned => Mat3::identity(),
+            Mounting::BendingAxis => {
+                // Turned about the tangent until x is the bending axis (sin δ, cos δ, 0).
+                let (s, c) = sincos(scenario.motion.delta);
+                Mat3::new(s, -c, 0.0, c, s, 0.0, 0.0, 0.0, 1.0)
+            }
+        };
+        Self {
+            settings: scenario.tracker.clone(),
+            tip_from_marker,
+            noise: Normal::new(scenario.seed, Source::Tracker),
+            held: None,
+        }
+    }
+
+    /// The reading that the loop sees at `time` (s).
+    pub fn read(&mut self, plant: &Plant, time: f64) -> Reading {
+        // A time one rounding error before a refresh is the refresh.
+        let refresh = floor(time * self.settings.rate * (1.0 + 4.0 * f64::EPSILON));
+        if let Some((at, reading)) = self.held
+            && at == refresh
+        {
+            return reading;
+        }
+        let taken = (refresh / self.settings.rate).min(time) - self.settings.latency;
+        let reading = self.measure(plant, taken.max(0.0));
+        self.held = Some((refresh, reading));
+        reading
+    }
+
+    fn measure(&mut self, plant: &Plant, time: f64) -> Reading {
+        let tip = plant.shape(plant.command(time).0).tip_pose();
+        let settings = &self.settings;
+        let noise = |noise: &mut Normal, deviation: f64| {
+            if deviation > 0.0 { deviation * noise.draw() } else { 0.0 }
+        };
+        let position = tip.position.map(|x| {
+            let disturbed = x + noise(&mut self.noise, settings.position_noise);
+            rounded(disturbed, settings.position_resolution)
+        });
+        let mut rotation = tip.rotation * self.tip_from_marker;
+        if settings.orientation_noise > 0.0 {
+            rotation = from_euler(&[(); 3].map(|()| noise(&mut self.noise, settings.orientation_noise))) * rotation;
+        }
+        let mut angles = to_euler(&rotation).map(|angle| rounded(angle, settings.orientation_resolution));
+        if let Some((_, before)) = &self.held {
+            for (angle, before) in angles.iter_mut().zip(before.angles) {
+                *angle = unwrapped(*angle, before);
+            }
+        }
+        Reading { position, angles }
+    }
+}
+
+/// The multiple of `step` nearest to `value`; `value` itself for a step of 0 or too small to count.
+fn rounded(value: f64, step: f64) -> f64 {
+    let steps = rint(value / step);
+    if step > 0.0 && steps.is_finite() { step * steps } else { value }
+}
+
+/// `angle` plus the whole turns that bring it nearest to `before`.
+fn unwrapped(angle: f64, before: f64) -> f64 {
+    if (angle - before).abs() <= PI { angle } else { angle + TAU * rint((before - angle) / TAU) }
+}

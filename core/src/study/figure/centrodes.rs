@@ -1,0 +1,135 @@
+//! Figure 4: loci of the end disk's fixed centrode with and without constraint, and both backbones.
+
+use super::job::Content;
+use super::plans::without_contact;
+use super::words::{self, MILLI};
+use super::{Axis, Figure, Role, Series, Style};
+use crate::model::configuration::bend_from_theta_l;
+use crate::model::{Configuration, Rate, Vec3};
+use crate::plant::{Plant, Shape};
+use crate::scenario::{Plan, ScenarioError, motion::command};
+
+/// Marks of a locus over the whole motion.
+const MARKS: usize = 31;
+/// Backbones drawn over the whole motion.
+const BACKBONES: usize = 5;
+/// Points of a backbone.
+const POINTS: usize = 61;
+
+/// Loci and backbones in the bending plane: the backbones, then the marks of one locus, then those of the other.
+#[derive(Debug)]
+pub struct Centrodes {
+    plan: Plan,
+    free: Plan,
+    series: Vec<Series>,
+}
+
+impl Centrodes {
+    /// Of a plan's motion and beam.
+    pub fn new(plan: Plan) -> Result<Self, ScenarioError> {
+        Ok(Self { free: without_contact(&plan)?, plan, series: Vec::new() })
+    }
+
+    /// Configurations between which θL takes equal steps over the motion.
+    fn even(&self, count: usize) -> impl Iterator<Item = Configuration> + '_ {
+        let motion = &self.plan.scenario().motion;
+        let plane = Configuration::new(0.0, motion.delta);
+        // Nothing is commanded past the end of the run.
+        let last = command(motion, motion.end).0;
+        (0..count).map(move |k| {
+            let share = k as f64 / (count - 1) as f64;
+            plane.with_bend(bend_from_theta_l(motion.theta_start + share * (last - motion.theta_start)))
+        })
+    }
+
+    fn locus(&self, plan: &Plan) -> Vec<[f64; 2]> {
+        let plant = Plant::new(plan);
+        let held = plan.contact().is_some();
+        let chosen = self.even(MARKS).filter(|configuration| !held || plant.in_contact(configuration));
+        chosen
+            .filter_map(|configuration| {
+                let (pose, jacobian) = plant.shape(configuration).tip_pose_and_jacobian();
+                Some(in_plane(&configuration, &jacobian.centrode(&pose.position, Rate::BENDING)?))
+            })
+            .collect()
+    }
+
+    fn backbones(&self) -> Vec<Series> {
+        let (free, held) = (Plant::new(&self.free), Plant::new(&self.plan));
+        let mut series = Vec::new();
+        for configuration in self.even(BACKBONES) {
+            series.push(Series {
+                name: "backbone without constraint".into(),
+                role: Role::Robot,
+                style: Style::Line,
+                points: self.backbone(&configuration, &free.shape(configuration)),
+            });
+            if held.in_contact(&configuration) {
+                series.push(Series {
+                    name: "backbone with constraint".into(),
+                    role: Role::Constrained,
+                    style: Style::Dashed,
+                    points: self.backbone(&configuration, &held.shape(configuration)),
+                });
+            }
+        }
+        series
+    }
+
+    fn backbone(&self, configuration: &Configuration, shape: &Shape) -> Vec<[f64; 2]> {
+        let length = self.plan.segment().length;
+        let at = |k| in_plane(configuration, &shape.pose(length * (k as f64 / (POINTS - 1) as f64)).position);
+        (0..POINTS).map(at).collect()
+    }
+}
+
+/// Across the base toward the bend, and along the straight backbone, m.
+fn in_plane(configuration: &Configuration, point: &Vec3) -> [f64; 2] {
+    let (s, c) = configuration.sin_cos_delta();
+    [c * point.x - s * point.y, point.z]
+}
+
+impl Content for Centrodes {
+    fn pieces(&self) -> usize {
+        3
+    }
+
+    fn piece(&mut self, k: usize) {
+        match k {
+            0 => self.series.extend(self.backbones()),
+            1 => self.series.push(Series {
+                name: "centrode without constraint, c_m".into(),
+                role: Role::Model,
+                style: Style::Triangles,
+                points: self.locus(&self.free),
+            }),
+            _ if self.plan.contact().is_some() => self.series.push(Series {
+                name: "centrode with constraint, c_c".into(),
+                role: Role::Constrained,
+                style: Style::Circles,
+                points: self.locus(&self.plan),
+            }),
+            _ => {}
+        }
+    }
+
+    fn figure(&self) -> Figure {
+        let scenario = self.plan.scenario();
+        let axis = |name| Axis { name, si_unit: "m", unit: "mm", scale: MILLI, range: None };
+        Figure {
+            title: String::new(),
+            x: axis("across the base"),
+            y: axis("along the straight backbone"),
+            series: self.series.clone(),
+            verticals: Vec::new(),
+            spans: Vec::new(),
+            equal_scales: true,
+            caption: words::caption(&[
+                "in the bending plane, marks at equal steps of θ_L".into(),
+                words::robot(scenario),
+                words::motion(scenario),
+                words::contact(&self.plan),
+            ]),
+        }
+    }
+}

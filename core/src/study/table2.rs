@@ -1,0 +1,313 @@
+//! The paper's Table II, as printed and as the simulated experiment gives it.
+//!
+//! Three disks are met one after the other and each experiment is repeated. The table says when the contact was
+//! detected, at which θL, and where along the backbone it was placed.
+
+use super::seed::repeat_seed;
+use super::truth::contact_sample;
+use super::{Job, Progress};
+use crate::run::Simulation;
+use crate::scenario::preset::find;
+use crate::scenario::{Plan, Scenario, ScenarioError};
+use libm::sqrt;
+use serde::Serialize;
+
+/// The presets whose contact stands for disk 1, 2 and 3.
+pub const PRESETS: [&str; 3] = ["disk-1", "bench", "disk-3"];
+/// Repeats of the paper's experiment on each disk.
+pub const PAPER_REPEATS: usize = 5;
+/// The most repeats of one experiment.
+pub const MAX_REPEATS: usize = 100_000;
+
+/// How one experiment ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Detected at or after contact.
+    Found,
+    /// Detected before contact, or without one.
+    FalseAlarm,
+    /// Not detected.
+    Missed,
+}
+
+/// One experiment: a row of the paper's table.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Row {
+    /// The disk in contact, counted from 1 at the base.
+    pub disk: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Time of the first crossing of ξ2, s; NaN without one.
+    pub detection_time: f64,
+    /// θL commanded then, rad.
+    pub theta_l: f64,
+    /// Estimated arc length of the contact, m.
+    pub location: f64,
+}
+
+/// Mean and scatter of a quantity over the experiments in which contact was found.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Statistic {
+    /// The mean; NaN over none.
+    pub mean: f64,
+    /// The sample standard deviation (n − 1); NaN below two.
+    pub deviation: f64,
+}
+
+impl Statistic {
+    /// Of values, which may be looked at twice.
+    #[must_use]
+    pub fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
+        let (count, sum) = values.clone().fold((0.0, 0.0), |(count, sum), x| (count + 1.0, sum + x));
+        let mean = if count > 0.0 { sum / count } else { f64::NAN };
+        let squares = values.fold(0.0, |sum, x| sum + (x - mean) * (x - mean));
+        Self { mean, deviation: if count > 1.0 { sqrt(squares / (count - 1.0)) } else { f64::NAN } }
+    }
+}
+
+/// What the experiments on one disk come to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Disk {
+    /// The disk in contact, counted from 1 at the base.
+    pub disk: u64,
+    /// Truth: arc length s_c of the disk, m.
+    pub arc_length: f64,
+    /// Truth: when contact began, s. NaN when it never did, and for the paper, which does not say.
+    pub contact_time: f64,
+    /// Experiments made.
+    pub repeats: usize,
+    /// In how many contact was found.
+    pub found: usize,
+    /// In how many the alarm came before contact; `None` for the paper, which does not say.
+    pub false_alarms: Option<usize>,
+    /// Time of detection, s.
+    pub detection_time: Statistic,
+    /// Time from contact to detection, s.
+    pub delay: Statistic,
+    /// θL at detection, rad.
+    pub theta_l: Statistic,
+    /// Estimated location of the contact, m.
+    pub location: Statistic,
+    /// Mean estimate less the truth, m.
+    pub bias: f64,
+}
+
+impl Disk {
+    fn new(truth: Truth, rows: &[Row], false_alarms: Option<usize>) -> Self {
+        let rows = rows.iter().filter(move |row| row.disk == truth.disk);
+        let found = rows.clone().filter(|row| row.outcome == Outcome::Found);
+        let location = Statistic::of(found.clone().map(|row| row.location));
+        Self {
+            disk: truth.disk,
+            arc_length: truth.arc_length,
+            contact_time: truth.contact_time,
+            repeats: rows.count(),
+            found: found.clone().count(),
+            false_alarms,
+            detection_time: Statistic::of(found.clone().map(|row| row.detection_time)),
+            delay: Statistic::of(found.clone().map(|row| row.detection_time - truth.contact_time)),
+            theta_l: Statistic::of(found.map(|row| row.theta_l)),
+            bias: location.mean - truth.arc_length,
+            location,
+        }
+    }
+}
+
+/// Table II twice, disk by disk.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Table2 {
+    /// From the rows that the paper prints.
+    pub paper: [Disk; 3],
+    /// From the simulated experiments made so far.
+    pub simulated: [Disk; 3],
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Truth {
+    disk: u64,
+    arc_length: f64,
+    contact_time: f64,
+}
+
+/// The fifteen rows that the paper prints.
+///
+/// It does not say when contact began: every row counts as found.
+#[must_use]
+pub fn paper_rows() -> Vec<Row> {
+    numbers(include_str!("../../../assets/table2.csv"))
+        .map(|[disk, detection_time, theta_l, location]| Row {
+            disk: disk as u64,
+            outcome: Outcome::Found,
+            detection_time,
+            theta_l,
+            location,
+        })
+        .collect()
+}
+
+/// Per disk, from 1: arc length (m) and the standard deviation of the location (m) as the paper prints them.
+#[must_use]
+pub fn paper_disks() -> [[f64; 2]; 3] {
+    let mut disks = [[f64::NAN; 2]; 3];
+    for (disk, [_, arc_length, deviation]) in
+        disks.iter_mut().zip(numbers(include_str!("../../../assets/table2-disks.csv")))
+    {
+        *disk = [arc_length, deviation];
+    }
+    disks
+}
+
+/// What the paper's rows come to.
+#[must_use]
+pub fn paper() -> [Disk; 3] {
+    let (rows, disks) = (paper_rows(), paper_disks());
+    std::array::from_fn(|k| {
+        let truth = Truth { disk: k as u64 + 1, arc_length: disks[k][0], contact_time: f64::NAN };
+        Disk::new(truth, &rows, None)
+    })
+}
+
+/// The lines of a shipped file below its header, as numbers; a test reads them all.
+fn numbers<const N: usize>(text: &str) -> impl Iterator<Item = [f64; N]> {
+    text.lines().skip(1).map(|line| {
+        let mut values = [f64::NAN; N];
+        for (value, field) in values.iter_mut().zip(line.split(',')) {
+            *value = field.trim().parse().unwrap_or(f64::NAN);
+        }
+        values
+    })
+}
+
+/// The simulated Table II; a step is one experiment, and the disks take turns.
+#[derive(Debug, Clone)]
+pub struct Table2Job {
+    plans: [(Truth, Plan); 3],
+    repeats: usize,
+    rows: Vec<Row>,
+}
+
+impl Table2Job {
+    /// The experiment of `base` on disks 1, 2 and 3, each `repeats` times.
+    ///
+    /// Everything is as in `base` but for the contact: its place and time are those of the presets `disk-1`, `bench`
+    /// and `disk-3`. With `bench` as base, the first experiments are these presets themselves. Later ones have the
+    /// seeds of [`repeat_seed`].
+    ///
+    /// # Errors
+    /// When the scenario is impossible, has fewer than three disks, or the repeats are not from 1 to [`MAX_REPEATS`].
+    pub fn new(base: &Scenario, repeats: usize) -> Result<Self, ScenarioError> {
+        let refusal =
+            |key: &str, value: String, allowed: String| ScenarioError::Value { key: key.into(), value, allowed };
+        if !(1..=MAX_REPEATS).contains(&repeats) {
+            let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
+            return Err(refusal("repeats", repeats.to_string(), allowed));
+        }
+        Plan::new(base)?;
+        let count = base.robot.disks.len();
+        if count < PRESETS.len() {
+            let allowed = "at least three disks, for Table II compares disks 1, 2 and 3".into();
+            return Err(refusal("robot.disks", format!("{:?}", base.robot.disks), allowed));
+        }
+        let mut plans = Vec::with_capacity(PRESETS.len());
+        for (k, name) in PRESETS.into_iter().enumerate() {
+            let scenario = Scenario { contact: find(name)?.scenario()?.contact, ..base.clone() };
+            let plan = Plan::new(&scenario)?;
+            let truth = Truth {
+                disk: k as u64 + 1,
+                arc_length: base.robot.disks[k],
+                contact_time: contact_sample(&plan).map_or(f64::NAN, |k| plan.time(k)),
+            };
+            plans.push((truth, plan));
+        }
+        let plans = plans.try_into().expect("one for each preset");
+        Ok(Self { plans, repeats, rows: Vec::new() })
+    }
+
+    /// The experiments made so far: disks 1, 2, 3 of the first repeat, then of the second, and so on.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// Both tables, from the experiments made so far.
+    #[must_use]
+    pub fn table(&self) -> Table2 {
+        let simulated = self.plans.each_ref().map(|(truth, _)| {
+            let alarms = self.rows.iter().filter(|row| row.disk == truth.disk && row.outcome == Outcome::FalseAlarm);
+            Disk::new(*truth, &self.rows, Some(alarms.count()))
+        });
+        Table2 { paper: paper(), simulated }
+    }
+}
+
+impl Job for Table2Job {
+    fn step(&mut self) {
+        if self.progress().is_complete() {
+            return;
+        }
+        let (truth, plan) = &self.plans[self.rows.len() % PRESETS.len()];
+        let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
+        self.rows.push(experiment(&plan.with_seed(seed), truth));
+    }
+
+    fn progress(&self) -> Progress {
+        Progress { done: self.rows.len(), of: self.repeats * PRESETS.len() }
+    }
+}
+
+/// One run, up to its detection.
+fn experiment(plan: &Plan, truth: &Truth) -> Row {
+    let mut simulation = Simulation::new(plan);
+    while simulation.detection().is_none() && simulation.next().is_some() {}
+    let disk = truth.disk;
+    match simulation.detection() {
+        Some(detection) => {
+            let outcome = if detection.time >= truth.contact_time { Outcome::Found } else { Outcome::FalseAlarm };
+            let (detection_time, theta_l, location) = (detection.time, detection.theta_l, detection.location);
+            Row { disk, outcome, detection_time, theta_l, location }
+        }
+        None => {
+            let nan = f64::NAN;
+            Row { disk, outcome: Outcome::Missed, detection_time: nan, theta_l: nan, location: nan }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_printed_deviations_follow_from_the_printed_rows() {
+        let disks = paper_disks();
+        // As many digits as the paper prints.
+        for ((disk, printed), digits) in
+            paper().iter().zip(disks.map(|[_, deviation]| deviation)).zip([1e-4, 1e-8, 1e-4])
+        {
+            let error = (disk.location.deviation - printed).abs();
+            assert!(error <= 0.5 * digits, "disk {}: {} for {printed}", disk.disk, disk.location.deviation);
+        }
+    }
+
+    #[test]
+    fn every_field_of_the_shipped_files_is_a_number() {
+        let rows = paper_rows();
+        assert_eq!(rows.len(), 3 * PAPER_REPEATS);
+        for (k, row) in rows.iter().enumerate() {
+            assert_eq!(row.disk as usize, k / PAPER_REPEATS + 1);
+            assert!((5.0..8.0).contains(&row.detection_time) && (0.0..1.6).contains(&row.theta_l), "{row:?}");
+            assert!((0.0..0.03).contains(&row.location), "{row:?}");
+        }
+        assert_eq!(paper_disks().map(|[s, _]| s), [0.0075, 0.015, 0.0225]);
+    }
+
+    #[test]
+    fn a_statistic_over_few_is_not_defined() {
+        let none = Statistic::of(std::iter::empty());
+        let one = Statistic::of([3.0].into_iter());
+        assert!(none.mean.is_nan() && none.deviation.is_nan() && one.deviation.is_nan());
+        let two = Statistic::of([1.0, 3.0].into_iter());
+        assert_eq!((one.mean, two.mean, two.deviation), (3.0, 2.0, sqrt(2.0)));
+    }
+}

@@ -1,0 +1,345 @@
+//! Threshold tuning: repeats of a scenario with and without contact, and what every threshold of every method would
+//! have made of them.
+//!
+//! A run is made once and judged by all thresholds in that one pass. Repeat `k` has the seed of
+//! [`repeat_seed`]; what repeats come to is counted in whole numbers. So a study is the same to the bit whoever runs
+//! its pieces, in whichever order. Reading order: `sweep` (what is compared), `levels` (which thresholds), `watch`
+//! (first alarms of one run), `tally` and `rate` (what they come to), `recommend` (which threshold to take), `remote` (a study that a worker makes).
+
+pub mod levels;
+pub mod rate;
+pub mod recommend;
+pub mod remote;
+pub mod sweep;
+pub mod tally;
+pub mod watch;
+
+use super::seed::repeat_seed;
+use super::truth::contact_sample;
+use super::{Job, Progress};
+use crate::scenario::text::Draft;
+use crate::scenario::{Place, Threshold};
+use crate::scenario::{Plan, Scenario, ScenarioError};
+use levels::Levels;
+use serde::{Deserialize, Serialize};
+use tally::{Clock, Detection, FalseAlarms, Tally, detection, false_alarms};
+use watch::{Firsts, Method, first_alarms};
+
+/// The most repeats of one scenario.
+pub const MAX_REPEATS: usize = 10_000_000;
+
+/// What is to be studied.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Spec {
+    /// The scenario on which every cell builds.
+    pub scenario: Scenario,
+    /// Repeats of each cell, with contact and without.
+    pub repeats: usize,
+    /// An alarm later than this after contact counts as missed, s.
+    pub late: f64,
+    /// The cells, each a list of overrides `key=value`.
+    pub cells: Vec<Vec<String>>,
+    /// Thresholds ξ2 (m) in place of the usual ones.
+    pub xi2: Option<Vec<f64>>,
+    /// Thresholds ξ1 (N·m, or k where it follows the shape) in place of the usual ones.
+    pub xi1: Option<Vec<f64>>,
+}
+
+/// One scenario to repeat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Batch {
+    /// The scenario, planned; ξ2 does not matter to it.
+    pub plan: Plan,
+    /// The thresholds.
+    pub levels: Levels,
+    /// Its times.
+    pub clock: Clock,
+    /// What its runs came to.
+    pub tally: Tally,
+}
+
+/// One combination of settings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Its overrides.
+    pub set: Vec<String>,
+    /// The scenario that they make.
+    pub scenario: Scenario,
+    /// Place of its runs without contact among the batches.
+    pub free: usize,
+    /// Place of its runs with contact; none when the scenario has no contact.
+    pub held: Option<usize>,
+}
+
+/// What one threshold comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Point {
+    /// ξ2 (m) or ξ1 (N·m, or k).
+    pub threshold: f64,
+    /// In runs without contact.
+    pub false_alarms: FalseAlarms,
+    /// In runs with contact; none when the scenario has no contact.
+    pub detection: Option<Detection>,
+}
+
+/// A study, as far as it has come.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Study {
+    spec: Spec,
+    batches: Vec<Batch>,
+    cells: Vec<Cell>,
+}
+
+impl Study {
+    /// A study of which nothing is done.
+    ///
+    /// # Errors
+    /// When a cell's scenario is impossible, or a number of the spec is.
+    pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
+        let refusal =
+            |key: &str, value: String, allowed: String| Err(ScenarioError::Value { key: key.into(), value, allowed });
+        if !(1..=MAX_REPEATS).contains(&spec.repeats) {
+            let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
+            return refusal("repeats", spec.repeats.to_string(), allowed);
+        }
+        if !(spec.late >= 0.0 && spec.late.is_finite()) {
+            return refusal("late", spec.late.to_string(), "a finite time, 0 s or more".into());
+        }
+        let mut study = Self { batches: Vec::new(), cells: Vec::new(), spec };
+        for set in study.spec.cells.clone() {
+            let mut draft = Draft::from_scenario(&study.spec.scenario);
+            set.iter().try_for_each(|text| draft.set(text))?;
+            let scenario = draft.finish()?;
+            let mut alone = scenario.clone();
+            alone.contact.place = Place::Nowhere;
+            let free = study.batch(&scenario, alone)?;
+            let held = match scenario.contact.place {
+                Place::Nowhere => None,
+                _ => Some(study.batch(&scenario, scenario.clone())?),
+            };
+            study.cells.push(Cell { set, scenario, free, held });
+        }
+        Ok(study)
+    }
+
+    /// The place of a batch, which cells share where they differ in nothing that matters to it.
+    fn batch(&mut self, cell: &Scenario, mut scenario: Scenario) -> Result<usize, ScenarioError> {
+        let mut levels = Levels::of(cell);
+        if let Some(xi2) = &self.spec.xi2 {
+            levels.xi2.clone_from(xi2);
+            levels::with(&mut levels.xi2, cell.detection.xi2.value());
+        }
+        if let Some(xi1) = &self.spec.xi1 {
+            levels.xi1.clone_from(xi1);
+            levels::with(&mut levels.xi1, xi1_setting(cell));
+        }
+        scenario.detection.xi2 = Threshold::OFF;
+        if scenario.contact.place == Place::Nowhere {
+            scenario.contact = crate::scenario::Contact { place: Place::Nowhere, ..Default::default() };
+        }
+        let place = self.batches.iter().position(|batch| *batch.plan.scenario() == scenario && batch.levels == levels);
+        if let Some(place) = place {
+            return Ok(place);
+        }
+        let plan = Plan::new(&scenario)?;
+        let armed = first_sample(&plan, scenario.detection.armed_from);
+        let late = libm::floor(self.spec.late * scenario.loop_rate * (1.0 + 4.0 * f64::EPSILON));
+        let clock = Clock {
+            rate: scenario.loop_rate,
+            armed: armed as u32,
+            samples: plan.samples() as u32,
+            contact: contact_sample(&plan).map(|k| k as u32),
+            late: late as u32,
+        };
+        self.batches.push(Batch { tally: Tally::new(&levels), plan, levels, clock });
+        Ok(self.batches.len() - 1)
+    }
+
+    /// What is studied.
+    #[must_use]
+    pub fn spec(&self) -> &Spec {
+        &self.spec
+    }
+
+    /// The scenarios to repeat, each once.
+    #[must_use]
+    pub fn batches(&self) -> &[Batch] {
+        &self.batches
+    }
+
+    /// The combinations compared, in the order asked for.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// Which batch and which repeat the `piece`-th piece of work is, of [`Progress::of`]: the batches take turns, so that
+    /// whoever stops early has equally many repeats of each.
+    #[must_use]
+    pub fn piece(&self, piece: usize) -> (usize, usize) {
+        (piece % self.batches.len(), piece / self.batches.len())
+    }
+
+    /// Makes one repeat of one batch; changes nothing, so that many can be made at once.
+    ///
+    /// # Panics
+    /// When there is no such batch.
+    #[must_use]
+    pub fn run(&self, (batch, repeat): (usize, usize)) -> Firsts {
+        let Batch { plan, levels, .. } = &self.batches[batch];
+        first_alarms(&plan.with_seed(repeat_seed(plan.scenario().seed, repeat as u64)), levels)
+    }
+
+    /// Counts one repeat in.
+    ///
+    /// # Panics
+    /// When there is no such batch.
+    pub fn add(&mut self, batch: usize, firsts: &Firsts) {
+        let batch = &mut self.batches[batch];
+        batch.tally.add(firsts, &batch.clock);
+    }
+
+    /// Takes over what another study has counted where both would count the same.
+    pub fn adopt(&mut self, other: &Self) {
+        for batch in &mut self.batches {
+            let same =
+                |known: &&Batch| known.levels == batch.levels && known.clock == batch.clock && known.plan == batch.plan;
+            let known = other.batches.iter().find(same);
+            if let Some(known) = known.filter(|known| known.tally.runs <= self.spec.repeats as u64) {
+                batch.tally = known.tally.clone();
+            }
+        }
+    }
+
+    /// Takes over the tally of one batch that was counted elsewhere. One that does not fit, or says less, is left.
+    pub fn set(&mut self, batch: usize, tally: Tally) {
+        let Some(batch) = self.batches.get_mut(batch) else { return };
+        let lengths = |tally: &Tally| tally.counts.each_ref().map(Vec::len);
+        if lengths(&tally) == lengths(&batch.tally) && tally.runs > batch.tally.runs {
+            batch.tally = tally;
+        }
+    }
+
+    /// The batch to go on with among those wanted, so that cells are known one after the other, each with and without
+    /// contact alike.
+    #[must_use]
+    pub fn next(&self, wanted: impl Fn(usize) -> bool) -> Option<usize> {
+        let repeats = self.spec.repeats as u64;
+        let runs = |batch: &usize| self.batches[*batch].tally.runs;
+        let left = |cell: &Cell| {
+            let both = [Some(cell.free), cell.held].into_iter().flatten();
+            both.filter(|batch| wanted(*batch) && runs(batch) < repeats).min_by_key(runs)
+        };
+        self.cells.iter().find_map(left)
+    }
+
+    /// The batches that are not complete.
+    #[must_use]
+    pub fn missing(&self) -> Vec<usize> {
+        let wanted = self.spec.repeats as u64;
+        (0..self.batches.len()).filter(|&batch| self.batches[batch].tally.runs < wanted).collect()
+    }
+
+    /// The thresholds of a method in a cell.
+    ///
+    /// # Panics
+    /// When there is no such cell.
+    #[must_use]
+    pub fn levels(&self, cell: usize, method: Method) -> &[f64] {
+        method.levels(&self.batches[self.cells[cell].free].levels)
+    }
+
+    /// What a threshold comes to in a cell.
+    ///
+    /// # Panics
+    /// When there is no such cell or level.
+    #[must_use]
+    pub fn point(&self, cell: usize, method: Method, level: usize) -> Point {
+        let Cell { free, held, .. } = self.cells[cell];
+        let free = &self.batches[free];
+        Point {
+            threshold: method.levels(&free.levels)[level],
+            false_alarms: false_alarms(&free.tally, &free.clock, method, level),
+            detection: held.map(|held| {
+                let held = &self.batches[held];
+                detection(&held.tally, &held.clock, method, level)
+            }),
+        }
+    }
+
+    /// What all thresholds of a method come to in a cell, rising.
+    ///
+    /// # Panics
+    /// When there is no such cell.
+    #[must_use]
+    pub fn curve(&self, cell: usize, method: Method) -> Vec<Point> {
+        (0..self.levels(cell, method).len()).map(|level| self.point(cell, method, level)).collect()
+    }
+
+    /// The level of the cell's own setting; none while it is switched off.
+    ///
+    /// # Panics
+    /// When there is no such cell.
+    #[must_use]
+    pub fn own(&self, cell: usize, method: Method) -> Option<usize> {
+        let scenario = &self.cells[cell].scenario;
+        let setting = if method == Method::Jfd { xi1_setting(scenario) } else { scenario.detection.xi2.value() };
+        self.levels(cell, method).iter().position(|&level| Some(level) == setting)
+    }
+
+    /// Repeats made of a cell: without contact, and with.
+    ///
+    /// # Panics
+    /// When there is no such cell.
+    #[must_use]
+    pub fn repeats(&self, cell: usize) -> (u64, Option<u64>) {
+        let Cell { free, held, .. } = self.cells[cell];
+        (self.batches[free].tally.runs, held.map(|held| self.batches[held].tally.runs))
+    }
+
+    /// Truth: when contact begins in a cell, s; none without.
+    ///
+    /// # Panics
+    /// When there is no such cell.
+    #[must_use]
+    pub fn contact_time(&self, cell: usize) -> Option<f64> {
+        let held = &self.batches[self.cells[cell].held?];
+        held.clock.contact.map(|sample| held.plan.time(sample as usize))
+    }
+}
+
+/// ξ1 as levels count it: N·m, or k where it follows the shape; none while switched off.
+#[must_use]
+pub fn xi1_setting(scenario: &Scenario) -> Option<f64> {
+    use crate::scenario::Xi1Rule;
+    let detection = &scenario.detection;
+    detection.xi1.value().map(|constant| match detection.xi1_rule {
+        Xi1Rule::Constant => constant,
+        Xi1Rule::Bound => detection.xi1_factor,
+    })
+}
+
+/// The first sample not before `time` (s); the run's length when there is none.
+fn first_sample(plan: &Plan, time: f64) -> usize {
+    let (mut before, mut after) = (0, plan.samples());
+    while before < after {
+        let middle = before + (after - before) / 2;
+        if plan.time(middle) < time { before = middle + 1 } else { after = middle }
+    }
+    after
+}
+
+/// A piece is one run.
+impl Job for Study {
+    fn step(&mut self) {
+        if let Some(batch) = self.next(|_| true) {
+            let firsts = self.run((batch, self.batches[batch].tally.runs as usize));
+            self.add(batch, &firsts);
+        }
+    }
+
+    fn progress(&self) -> Progress {
+        let done = self.batches.iter().map(|batch| batch.tally.runs as usize).sum();
+        Progress { done, of: self.batches.len() * self.spec.repeats }
+    }
+}

@@ -1,0 +1,119 @@
+//! When each threshold would first have raised an alarm: all of them in one pass over a run.
+
+use super::levels::Levels;
+use crate::detect::detector::Judgement;
+use crate::run::Simulation;
+use crate::scenario::Plan;
+use crate::scenario::{Thresholds, Xi1Rule};
+use serde::{Deserialize, Serialize};
+
+/// How an alarm is raised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// By the fixed centrode deviation above ξ2.
+    Fcd,
+    /// By the joint force deviation above ξ1.
+    Jfd,
+    /// By either; levels are those of ξ2, ξ1 is the scenario's.
+    Or,
+    /// By both being above at one instant; levels are those of ξ2, ξ1 is the scenario's.
+    And,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Fcd, Self::Jfd, Self::Or, Self::And];
+
+    /// Short name, as in files and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fcd => "fcd",
+            Self::Jfd => "jfd",
+            Self::Or => "or",
+            Self::And => "and",
+        }
+    }
+
+    /// The levels of its threshold.
+    #[must_use]
+    pub fn levels(self, levels: &Levels) -> &[f64] {
+        if self == Self::Jfd { &levels.xi1 } else { &levels.xi2 }
+    }
+}
+
+/// No alarm.
+pub const NEVER: u32 = u32::MAX;
+
+/// By method and level, the sample of the first alarm, or [`NEVER`].
+pub type Firsts = [Vec<u32>; 4];
+
+/// What has been crossed so far in one run.
+///
+/// A threshold has raised its alarm once the value was above it, so the thresholds still silent are those above the
+/// largest value so far: they are crossed in rising order, and one mark for each method suffices.
+#[derive(Debug, Clone)]
+struct Watch<'a> {
+    levels: &'a Levels,
+    thresholds: &'a Thresholds,
+    firsts: Firsts,
+    crossed: [usize; 4],
+    /// The centrode deviation last looked at: the alarm keeps its state while nothing is judged.
+    deviation: f64,
+    forces_above: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(levels: &'a Levels, thresholds: &'a Thresholds) -> Self {
+        Self {
+            levels,
+            thresholds,
+            firsts: Method::ALL.map(|method| vec![NEVER; method.levels(levels).len()]),
+            crossed: [0; 4],
+            deviation: f64::NEG_INFINITY,
+            forces_above: false,
+        }
+    }
+
+    fn look(&mut self, sample: u32, time: f64, judgement: &Judgement) {
+        let [deviation, residual] = judgement.looked_at(time, self.thresholds);
+        if let Some(residual) = residual {
+            let unit = match self.thresholds.xi1_rule {
+                Xi1Rule::Constant => 1.0,
+                Xi1Rule::Bound => judgement.shape_bound,
+            };
+            self.raise(Method::Jfd, sample, |level| residual > level * unit);
+            self.forces_above = self.thresholds.xi1_at(judgement.shape_bound).is_some_and(|xi1| residual > xi1);
+        }
+        if let Some(deviation) = deviation {
+            self.deviation = deviation;
+            self.raise(Method::Fcd, sample, |level| deviation > level);
+            self.raise(Method::Or, sample, |level| deviation > level);
+        }
+        if self.forces_above {
+            self.raise(Method::Or, sample, |_| true);
+            let deviation = self.deviation;
+            self.raise(Method::And, sample, |level| deviation > level);
+        }
+    }
+
+    fn raise(&mut self, method: Method, sample: u32, above: impl Fn(f64) -> bool) {
+        let (levels, which) = (method.levels(self.levels), method as usize);
+        let crossed = &mut self.crossed[which];
+        while *crossed < levels.len() && above(levels[*crossed]) {
+            self.firsts[which][*crossed] = sample;
+            *crossed += 1;
+        }
+    }
+}
+
+/// Runs a plan and says when each level of each method was first crossed.
+#[must_use]
+pub fn first_alarms(plan: &Plan, levels: &Levels) -> Firsts {
+    let mut watch = Watch::new(levels, &plan.scenario().detection);
+    for (k, sample) in Simulation::new(plan).enumerate() {
+        watch.look(k as u32, sample.time, &sample.judgement);
+    }
+    watch.firsts
+}

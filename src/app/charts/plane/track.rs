@@ -1,0 +1,241 @@
+//! What the bending plane shows, as numbers: everything projected into the plane, in mm.
+
+use crate::app::charts::plane::flat::{Flat, MM, Mark, Projection, shifted};
+use crate::show::Proportions;
+use crate::show::track::{self, Spot};
+use centrode_core::model::Arc;
+use centrode_core::plant::{Plant, Shape};
+use centrode_core::run::{Run, Sample};
+
+/// Points of a drawn backbone.
+const POINTS: usize = 40;
+
+/// The three loci over the run; a centrode that is not defined has no mark.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Loci {
+    /// c_m: the model without constraint.
+    pub model: Vec<Mark>,
+    /// c_c: the model held at the true contact, while it holds.
+    pub constrained: Vec<Mark>,
+    /// c_s: from the sensor.
+    pub sensor: Vec<Mark>,
+}
+
+/// A backbone with its disks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Robot {
+    /// Points of the primary backbone from base to tip, mm.
+    pub backbone: Vec<Flat>,
+    /// The same, on both sides at the pitch radius, mm.
+    pub sides: [Vec<Flat>; 2],
+    /// Ends of each disk, base and end disk included, mm.
+    pub disks: Vec<[Flat; 2]>,
+}
+
+/// The beam's centre and radius, and the point of the backbone that it holds, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Centre.
+    pub center: Flat,
+    /// Radius.
+    pub radius: f64,
+    /// Where the backbone is held.
+    pub touches: Flat,
+}
+
+/// Everything that is drawn from one run.
+#[derive(Debug, Clone)]
+pub struct Track<'a> {
+    run: &'a Run,
+    sizes: Proportions,
+    plant: Plant<'a>,
+    projection: Projection,
+}
+
+impl<'a> Track<'a> {
+    /// The track of a run.
+    #[must_use]
+    pub fn new(run: &'a Run) -> Self {
+        let plant = Plant::new(&run.plan);
+        let projection = Projection::of(plant.command(0.0).0);
+        Self { run, sizes: Proportions::of(run), plant, projection }
+    }
+
+    /// The true shape at a time.
+    #[must_use]
+    pub fn truth(&self, time: f64) -> Shape {
+        self.plant.shape(self.plant.command(time).0)
+    }
+
+    /// The shape without constraint, while contact holds at a time.
+    #[must_use]
+    pub fn ghost(&self, time: f64) -> Option<Vec<Flat>> {
+        let configuration = self.plant.command(time).0;
+        let arc = Arc { length: self.run.plan.segment().length, configuration };
+        self.plant.in_contact(&configuration).then(|| self.backbone(&Shape::Free(arc)))
+    }
+
+    /// A point of a shape, mm.
+    #[must_use]
+    pub fn place(&self, shape: &Shape, s: f64) -> Flat {
+        self.projection.point(&shape.pose(s).position)
+    }
+
+    fn backbone(&self, shape: &Shape) -> Vec<Flat> {
+        let length = self.run.plan.segment().length;
+        (0..=POINTS).map(|k| self.place(shape, length * k as f64 / POINTS as f64)).collect()
+    }
+
+    /// The robot in a shape.
+    #[must_use]
+    pub fn robot(&self, shape: &Shape) -> Robot {
+        let segment = self.run.plan.segment();
+        let (length, radius) = (segment.length, segment.pitch_radius * MM);
+        let side = |sign: f64| {
+            (0..=POINTS)
+                .map(|k| {
+                    let pose = shape.pose(length * k as f64 / POINTS as f64);
+                    shifted(self.projection.point(&pose.position), self.projection.across(&pose), sign * radius)
+                })
+                .collect()
+        };
+        Robot { backbone: self.backbone(shape), sides: [side(-1.0), side(1.0)], disks: self.disks(shape) }
+    }
+
+    /// Ends of the base, the spacer disks and the end disk, mm.
+    fn disks(&self, shape: &Shape) -> Vec<[Flat; 2]> {
+        let segment = self.run.plan.segment();
+        let spacers = self.run.plan.scenario().robot.disks.iter().copied();
+        let of = |s: f64| {
+            let pose = shape.pose(s);
+            let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
+            [-1.0, 1.0].map(|side| shifted(at, across, side * f64::from(self.sizes.disk) * MM))
+        };
+        std::iter::once(0.0).chain(spacers).chain([segment.length]).map(of).collect()
+    }
+
+    /// The beam, when there is one. It stands on the side that the segment bends to, against the disk's rim.
+    #[must_use]
+    pub fn beam(&self) -> Option<Beam> {
+        let contact = self.run.plan.contact()?;
+        let segment = self.run.plan.segment();
+        let configuration = self.plant.command(0.0).0.with_bend(contact.bend);
+        let pose = Arc { length: segment.length, configuration }.pose(contact.arc_length);
+        let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
+        let radius = f64::from(self.sizes.beam) * MM;
+        let away = radius + f64::from(self.sizes.surface(contact.arc_length)) * MM;
+        Some(Beam { center: shifted(at, across, contact.side * away), radius, touches: at })
+    }
+
+    /// c_m in a sample, mm.
+    #[must_use]
+    pub fn model(&self, sample: &Sample) -> Option<Flat> {
+        track::model(self.run, sample).as_ref().map(|at| self.projection.point(at))
+    }
+
+    /// c_c at a time, while contact holds, mm.
+    #[must_use]
+    pub fn constrained(&self, time: f64) -> Option<Flat> {
+        track::constrained(self.run, time).as_ref().map(|at| self.projection.point(at))
+    }
+
+    /// c_s in a sample where it is judged, mm.
+    #[must_use]
+    pub fn sensed(&self, sample: &Sample) -> Option<Flat> {
+        track::sensed(self.run, sample).as_ref().map(|at| self.projection.point(at))
+    }
+
+    /// The loci, the sensor's up to a time (s).
+    #[must_use]
+    pub fn loci(&self, until: f64) -> Loci {
+        let run = self.run;
+        let flat = |spots: Vec<Spot>| {
+            spots.into_iter().map(|spot| Mark { time: spot.time, at: self.projection.point(&spot.at) }).collect()
+        };
+        Loci {
+            model: flat(track::marks(run, &track::model_path(run))),
+            constrained: flat(track::marks(run, &track::constrained_path(run))),
+            sensor: flat(track::dots(run, until)),
+        }
+    }
+
+    /// Least and greatest coordinates of what the whole run draws, mm, sensor apart: it may lie anywhere.
+    #[must_use]
+    pub fn bounds(&self, loci: &Loci) -> [Flat; 2] {
+        let mut bounds = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let mut include = |at: Flat| {
+            for i in 0..2 {
+                if at[i].is_finite() {
+                    bounds[0][i] = bounds[0][i].min(at[i]);
+                    bounds[1][i] = bounds[1][i].max(at[i]);
+                }
+            }
+        };
+        loci.model.iter().chain(&loci.constrained).for_each(|mark| include(mark.at));
+        let first = self.run.samples.first();
+        for sample in first.into_iter().chain(track::even(self.run, 12)) {
+            let shape = self.truth(sample.time);
+            self.disks(&shape).iter().flatten().for_each(|&at| include(at));
+            self.ghost(sample.time).into_iter().flatten().for_each(&mut include);
+        }
+        if let Some(Beam { center, radius, .. }) = self.beam() {
+            include(center.map(|x| x - radius));
+            include(center.map(|x| x + radius));
+        }
+        bounds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::run::simulate;
+    use centrode_core::scenario::{Scenario, preset};
+
+    fn run(name: &str) -> Run {
+        simulate(&preset::find(name).and_then(preset::Preset::scenario).expect("preset")).expect("run")
+    }
+
+    #[test]
+    fn the_plane_turns_with_the_bending_direction() {
+        let flat = |delta: f64| {
+            let mut scenario = Scenario::default();
+            scenario.motion.delta = delta;
+            let run = simulate(&scenario).expect("run");
+            let track = Track::new(&run);
+            (track.bounds(&track.loci(99.0)), track.beam().expect("beam"))
+        };
+        let (straight, turned) = (flat(0.0), flat(2.1));
+        for i in 0..2 {
+            for j in 0..2 {
+                assert!((straight.0[i][j] - turned.0[i][j]).abs() < 1e-6);
+            }
+            assert!((straight.1.center[i] - turned.1.center[i]).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn the_beam_touches_the_disk_rim_on_the_side_bent_to() {
+        let run = run("paper");
+        let track = Track::new(&run);
+        let beam = track.beam().expect("beam");
+        let away = (beam.center[0] - beam.touches[0]).hypot(beam.center[1] - beam.touches[1]);
+        assert!((away - (f64::from(Proportions::of(&run).disk) * MM + beam.radius)).abs() < 1e-9);
+        assert!(beam.center[0] > beam.touches[0]);
+        // The held shape passes the point that the beam holds, as long as it holds.
+        for time in [5.9, 7.0, 9.5] {
+            let at = track.place(&track.truth(time), 0.015);
+            assert!((at[0] - beam.touches[0]).hypot(at[1] - beam.touches[1]) < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_robot_that_does_not_move_is_still_drawn() {
+        let mut scenario = Scenario::default();
+        scenario.motion.theta_end = scenario.motion.theta_start;
+        let run = simulate(&scenario).expect("run");
+        let track = Track::new(&run);
+        let bounds = track.bounds(&track.loci(99.0));
+        assert!(bounds.iter().flatten().all(|x| x.is_finite()));
+    }
+}

@@ -1,0 +1,105 @@
+//! The panel of controls: groups that fold, and a reset of everything.
+
+pub mod contact;
+pub mod control;
+pub mod quantity;
+pub mod row;
+mod span;
+pub mod table;
+
+use std::collections::BTreeMap;
+
+use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+
+use crate::app::charts::notation;
+use crate::app::command::Command;
+use crate::app::controls::control::Group;
+use crate::app::controls::table::GROUPS;
+use crate::app::fonts;
+use crate::app::layout;
+use crate::app::state::State;
+use crate::app::theme::Theme;
+use crate::app::widgets::{icon, text};
+use centrode_core::scenario::Scenario;
+use row::Context;
+
+/// What the panel needs to know.
+pub struct Inputs<'a> {
+    /// What is set.
+    pub state: &'a State,
+    /// The preset's scenario.
+    pub base: &'a Scenario,
+    /// What was refused last, by key.
+    pub notes: &'a BTreeMap<&'static str, String>,
+    /// Why the scenario as a whole is not the one that was run.
+    pub refusal: Option<String>,
+    /// Whether rows are to be large enough for a finger.
+    pub touch: bool,
+}
+
+/// Shows the controls.
+pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let (scrolled, foot) = ui.max_rect().split_top_bottom_at_y(ui.max_rect().bottom() - 52.0);
+    layout::inside(ui, "reset", foot.shrink2(vec2(16.0, 10.0)), |ui| reset_all(ui, inputs, out));
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(scrolled));
+    ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
+        Frame::new().inner_margin(Margin { left: 16, right: 16, top: 6, bottom: 6 }).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            if let Some(refusal) = &inputs.refusal {
+                row::refusal(ui, &format!("{refusal}. What is shown is the last run that was possible."));
+            }
+            for group in GROUPS {
+                show_group(ui, group, inputs, out);
+            }
+        });
+    });
+}
+
+fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    let open = !inputs.state.folded.contains(group.name);
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 29.0), Sense::click());
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), open, group.name));
+    let shown = ui.ctx().animate_bool(response.id, open);
+    let ink = if response.hovered() || response.has_focus() { theme.ink } else { theme.dim };
+    text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, group.name, fonts::strong(12.5), theme.ink);
+    icon::chevron(ui.painter(), rect.right_center() - vec2(6.0, 0.0), shown, ink);
+    if response.clicked() {
+        out.push(Command::Fold(group.name));
+    }
+    if !open {
+        return;
+    }
+    ui.push_id(group.name, |ui| {
+        let State { scenario, remembered, .. } = inputs.state;
+        let (base, touch) = (inputs.base, inputs.touch);
+        let note = |key| inputs.notes.get(key).map(String::as_str);
+        for control in group.controls {
+            let remembered = remembered.get(control.key).copied().or_else(|| control.value(inputs.base));
+            let context = Context { scenario, base, note: note(control.key), remembered, touch };
+            row::number(ui, control, &context, out);
+        }
+        for choice in group.choices {
+            let context = Context { scenario, base, note: note(choice.key), remembered: None, touch };
+            row::choice(ui, choice, &context, out);
+        }
+        if !group.note.is_empty() {
+            ui.add_space(6.0);
+            let job = notation::job(group.note, 11.5, theme.dim);
+            ui.add(egui::Label::new(job).wrap());
+            ui.add_space(8.0);
+        }
+    });
+}
+
+fn reset_all(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let changed = inputs.state.scenario != *inputs.base;
+    let label = egui::RichText::new("Reset all").font(if changed { fonts::strong(13.0) } else { fonts::regular(13.0) });
+    let button = egui::Button::new(label);
+    let tip =
+        format!("Restore the scenario of the preset “{}”", crate::app::panels::title::name(inputs.state.preset()));
+    if ui.centered_and_justified(|ui| ui.add(button)).inner.on_hover_text(tip).clicked() {
+        out.push(Command::ResetAll);
+    }
+}

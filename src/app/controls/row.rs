@@ -1,0 +1,129 @@
+//! One control: label, reset, switch, field, slider, and what was refused.
+
+use egui::{Align2, Rect, Sense, Ui, vec2};
+
+use crate::app::command::Command;
+use crate::app::controls::control::{Choice, Control};
+use crate::app::theme::Theme;
+use crate::app::widgets::field::{Field, field};
+use crate::app::widgets::icon::{self, Icon};
+use crate::app::widgets::rail::Rail;
+use crate::app::widgets::segmented::segmented;
+use crate::app::widgets::slider::{Slider, slider};
+use crate::app::widgets::text;
+use crate::app::widgets::toggle::toggle;
+use centrode_core::scenario::Scenario;
+
+/// Heights of the line with the field and of the slider; larger for a finger.
+const HEIGHTS: (f32, f32) = (24.0, 19.0);
+const TOUCH: (f32, f32) = (32.0, 30.0);
+const FIELD: f32 = 84.0;
+
+/// What a row needs to know besides its control.
+pub struct Context<'a> {
+    /// The scenario as it is.
+    pub scenario: &'a Scenario,
+    /// The preset's, for notch and reset.
+    pub base: &'a Scenario,
+    /// What was refused last, in words.
+    pub note: Option<&'a str>,
+    /// The value to show while it is switched off, in the unit shown.
+    pub remembered: Option<f64>,
+    /// Whether it is to be large enough for a finger.
+    pub touch: bool,
+}
+
+/// Label and reset button; returns whether it was reset.
+fn heading(ui: &mut Ui, rect: Rect, key: &str, label: &str, tip: &str, differs: bool) -> bool {
+    let theme = Theme::of(ui);
+    let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
+    let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
+    ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", key)), Sense::hover()).on_hover_text(tip);
+    if !differs {
+        return false;
+    }
+    let place = Rect::from_center_size(drawn.right_center() + vec2(15.0, 0.0), vec2(22.0, 22.0));
+    ui.push_id(key, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
+        .inner
+        .clicked()
+}
+
+/// Shows a number's row.
+pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out: &mut Vec<Command>) {
+    let Context { scenario, base, note, remembered, touch } = context;
+    let (line_height, rail_height) = if *touch { TOUCH } else { HEIGHTS };
+    let width = ui.available_width();
+    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
+    let line = Rect::from_min_size(rect.min, vec2(width, line_height));
+    let label = control.label(scenario);
+    if heading(ui, line, control.key, label, control.tip, control.differs(scenario, base)) {
+        out.push(Command::Reset(control));
+    }
+
+    let (shown, unit) = control.text(scenario);
+    let value = control.value(scenario);
+    let place = Rect::from_min_max(line.right_top() - vec2(FIELD, 0.0), line.right_bottom());
+    let name = format!("{label} value");
+    let entry = Field { label: &name, key: control.key, shown: &shown, unit, refused: note.is_some() };
+    if let Some(typed) = field(ui, place, &entry) {
+        out.push(Command::Enter(control, typed));
+    }
+    if control.off.is_some() {
+        let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
+        if toggle(ui, place, &format!("{label} on"), value.is_some()) {
+            out.push(Command::Switch(control, value.is_none()));
+        }
+    }
+
+    let track = Rect::from_min_size(line.left_bottom(), vec2(width, rail_height));
+    let spoken = if unit.is_empty() { shown } else { format!("{shown} {unit}") };
+    let moved = slider(
+        ui,
+        track,
+        &Slider {
+            key: control.key,
+            label,
+            spoken: &spoken,
+            rail: Rail { range: (control.range)(scenario), scale: control.scale },
+            value: value.or(*remembered).unwrap_or(0.0),
+            notch: control.value(base),
+            on: value.is_some(),
+        },
+    );
+    let tip = control.tip;
+    moved.0.on_hover_ui(|ui| {
+        ui.label(tip);
+    });
+    if let Some(value) = moved.1 {
+        out.push(Command::Set(control, value));
+    }
+    if let Some(note) = note {
+        refusal(ui, note);
+    }
+    ui.add_space(5.0);
+}
+
+/// Shows a choice's row.
+pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: &mut Vec<Command>) {
+    let width = ui.available_width();
+    let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
+    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + 28.0), Sense::hover());
+    let line = Rect::from_min_size(rect.min, vec2(width, line_height));
+    if heading(ui, line, choice.key, choice.label, choice.tip, choice.differs(context.scenario, context.base)) {
+        out.push(Command::ResetChoice(choice));
+    }
+    let place = Rect::from_min_size(line.left_bottom(), vec2(width, 28.0));
+    if let Some(option) = segmented(ui, place, choice.label, choice.options, (choice.get)(context.scenario)) {
+        out.push(Command::Pick(choice, option));
+    }
+    if let Some(note) = context.note {
+        refusal(ui, note);
+    }
+    ui.add_space(6.0);
+}
+
+/// Says what was refused.
+pub fn refusal(ui: &mut Ui, note: &str) {
+    let theme = Theme::of(ui);
+    ui.add(egui::Label::new(egui::RichText::new(note).size(12.0).color(theme.error)).wrap());
+}

@@ -1,0 +1,85 @@
+//! What the large part of the page shows: the robot, or something of the paper.
+
+use centrode_core::study::figure::Number;
+use serde::{Deserialize, Serialize};
+
+/// What stands on the stage.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Stage {
+    /// The robot in 3D and in its bending plane.
+    #[default]
+    Robot,
+    /// The bound of the joint forces over the bend.
+    Figure3,
+    /// Centrode loci with and without constraint.
+    Figure4,
+    /// Joint forces with and without contact.
+    Figure6,
+    /// Joint forces over the bend.
+    Figure7,
+    /// Centrode deviation and detections.
+    Figure8,
+    /// Table II.
+    Table2,
+    /// What can be seen at all.
+    Map,
+    /// What every threshold and filter would cost.
+    Tuning,
+}
+
+impl Stage {
+    /// All of them, in the order offered.
+    pub const ALL: [Self; 9] = [
+        Self::Robot,
+        Self::Figure3,
+        Self::Figure4,
+        Self::Figure6,
+        Self::Figure7,
+        Self::Figure8,
+        Self::Table2,
+        Self::Map,
+        Self::Tuning,
+    ];
+
+    /// The figure it is, if it is one.
+    #[must_use]
+    pub fn figure(self) -> Option<Number> {
+        match self {
+            Self::Figure3 => Some(Number::Three),
+            Self::Figure4 => Some(Number::Four),
+            Self::Figure6 => Some(Number::Six),
+            Self::Figure7 => Some(Number::Seven),
+            Self::Figure8 => Some(Number::Eight),
+            Self::Robot | Self::Table2 | Self::Map | Self::Tuning => None,
+        }
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Robot => "Robot",
+            Self::Figure3 => "Figure 3",
+            Self::Figure4 => "Figure 4",
+            Self::Figure6 => "Figure 6",
+            Self::Figure7 => "Figure 7",
+            Self::Figure8 => "Figure 8",
+            Self::Table2 => "Table II",
+            Self::Map => "Map",
+            Self::Tuning => "Tuning",
+        }
+    }
+
+    /// What it shows, in a line.
+    #[must_use]
+    pub fn summary(self) -> &'static str {
+        match (self, self.figure()) {
+            (_, Some(number)) => number.title(),
+            (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
+            (Self::Map, _) => "What can be seen at all: the thresholds that find a contact, by place and bend",
+            (Self::Tuning, _) => "Thresholds and filters: false alarms against delay, from repeated runs",
+            _ => "The robot as it bends, and its centrodes in the bending plane",
+        }
+    }
+}

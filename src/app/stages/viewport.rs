@@ -1,0 +1,176 @@
+//! The 3D view: the one file that joins egui and the renderer.
+
+mod notes;
+
+use std::sync::Arc;
+
+use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
+
+use crate::app::fonts;
+use crate::app::theme::Theme;
+use crate::app::widgets::icon::{self, Icon, Look};
+use crate::render::{Frame, Renderer, ViewId};
+use crate::scene::palette::Palette;
+use crate::scene::{Camera, Scene, Studio};
+use crate::show::{ViewOptions, home_camera, view};
+use centrode_core::run::Run;
+use centrode_core::scenario::Scenario;
+
+/// The ring around a fresh detection runs for this long, s of the run.
+const PULSE: f64 = 0.9;
+
+/// Room that the state chip takes at the top left: place and size, points.
+const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(130.0, 30.0));
+
+/// What the view remembers.
+#[derive(Debug, Default)]
+pub struct ViewState {
+    camera: Option<Camera>,
+    shown: Option<Shown>,
+    version: u64,
+    scene: Arc<Scene>,
+    has_gpu: bool,
+    still: bool,
+}
+
+/// All that the scene depends on.
+#[derive(Debug, PartialEq)]
+struct Shown {
+    scenario: Scenario,
+    time: f64,
+    dark: bool,
+}
+
+impl ViewState {
+    /// A view that draws with this render state; `still` leaves out what moves for effect.
+    #[must_use]
+    pub fn new(render_state: Option<&egui_wgpu::RenderState>, still: bool) -> Self {
+        if let Some(state) = render_state {
+            let renderer = Renderer::new(&state.device, state.target_format);
+            state.renderer.write().callback_resources.insert(renderer);
+        }
+        Self { has_gpu: render_state.is_some(), still, ..Self::default() }
+    }
+
+    /// Builds the scene again when what it depends on has changed.
+    fn update(&mut self, run: &Run, time: f64, dark: bool) {
+        let scenario = run.plan.scenario();
+        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.scenario == *scenario;
+        if self.shown.as_ref().is_some_and(same) {
+            return;
+        }
+        let since = run.detection.map_or(f64::INFINITY, |detection| time - detection.time);
+        let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
+        self.scene = Arc::new(view(run, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
+        self.version += 1;
+        self.shown = Some(Shown { scenario: scenario.clone(), time, dark });
+    }
+}
+
+/// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
+pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState) {
+    let theme = Theme::of(ui);
+    let rect = ui.max_rect();
+    if !state.has_gpu {
+        let text = "The 3D view needs WebGPU or WebGL2.";
+        ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, fonts::regular(13.0), theme.dim);
+        return;
+    }
+    let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
+    response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
+    let home = home_camera(run);
+    let mut camera = state.camera.take().unwrap_or(home);
+    steer(ui, &response, rect, &mut camera);
+    state.update(run, cursor, theme.dark);
+
+    let size = rect.size() * ui.pixels_per_point();
+    let studio = Palette::for_dark(theme.dark).studio;
+    let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
+    let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
+    ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
+    let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
+    let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
+    notes::notes(ui, rect, &camera, run, &state.scene, vec![button, chip]);
+    let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();
+    // A camera is kept only when it was moved: until then it follows the robot's size.
+    state.camera = (!reset && camera != home).then_some(camera);
+}
+
+/// Moves the camera as the pointer and the fingers say.
+fn steer(ui: &Ui, response: &Response, rect: Rect, camera: &mut Camera) {
+    let size = glam(rect.size());
+    let (shift, zoom, scroll, touch) =
+        ui.input(|input| (input.modifiers.shift, input.zoom_delta(), input.smooth_scroll_delta(), input.multi_touch()));
+    let drag = glam(response.drag_delta());
+    if let Some(touch) = touch.filter(|touch| rect.contains(touch.center_pos)) {
+        camera.pan(glam(touch.translation_delta), size);
+        camera.zoom_at(touch.zoom_delta, glam(touch.center_pos - rect.min), size);
+    } else if response.dragged_by(PointerButton::Primary) && !shift {
+        camera.orbit(drag);
+    } else if response.dragged() {
+        camera.pan(drag, size);
+    } else if let Some(at) = response.hover_pos() {
+        // egui takes Ctrl and scroll, and a pinch on a touchpad, as zoom already.
+        let factor = zoom * (scroll.y / 240.0).exp();
+        if factor != 1.0 {
+            camera.zoom_at(factor, glam(at - rect.min), size);
+        }
+    }
+    if response.dragged() {
+        ui.set_cursor_icon(CursorIcon::Grabbing);
+    } else if response.hovered() {
+        ui.set_cursor_icon(CursorIcon::Grab);
+    }
+}
+
+fn glam(v: egui::Vec2) -> glam::Vec2 {
+    glam::Vec2::new(v.x, v.y)
+}
+
+/// One picture on its way to the GPU.
+struct Picture {
+    scene: Arc<Scene>,
+    version: u64,
+    camera: Camera,
+    studio: Studio,
+    size_px: [u32; 2],
+}
+
+/// The page has one 3D view.
+const VIEW: ViewId = ViewId(0);
+
+impl egui_wgpu::CallbackTrait for Picture {
+    fn prepare(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        screen: &egui_wgpu::ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
+        resources: &mut egui_wgpu::CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        if let Some(renderer) = resources.get_mut::<Renderer>() {
+            let frame = Frame {
+                view: VIEW,
+                size_px: self.size_px,
+                pixels_per_point: screen.pixels_per_point,
+                scene: &self.scene,
+                scene_version: self.version,
+                camera: &self.camera,
+                studio: &self.studio,
+            };
+            renderer.prepare(device, queue, encoder, &frame);
+        }
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _info: egui::PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        resources: &egui_wgpu::CallbackResources,
+    ) {
+        if let Some(renderer) = resources.get::<Renderer>() {
+            renderer.paint(pass, VIEW);
+        }
+    }
+}

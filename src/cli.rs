@@ -1,0 +1,164 @@
+//! The headless command: one file per subcommand.
+//!
+//! Exit code 0 for work done, 2 for bad input with one line on standard error, 130 after an interrupt. A closed pipe ends
+//! it quietly.
+
+mod draw;
+mod figure;
+mod map;
+mod model;
+mod output;
+mod run;
+mod study;
+mod table2;
+
+use centrode_core::scenario::preset::{self, PRESETS};
+use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
+use centrode_core::scenario::{Scenario, ScenarioError};
+use clap::error::ErrorKind;
+use clap::{Args, Parser, Subcommand};
+use output::Failure;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Contact detection on a continuum robot, headless: the same core and the same numbers as the page.
+#[derive(Debug, Parser)]
+#[command(name = "centrode", version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Evaluate the model in one configuration.
+    Model(model::ModelArgs),
+    /// Draw one of the paper's figures from simulated runs, or write its numbers.
+    Figure(figure::FigureArgs),
+    /// Simulate a scenario and report threshold crossings and the estimated contact location.
+    Run(run::RunArgs),
+    /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
+    Table2(table2::Table2Args),
+    /// Map what can be seen at all: the largest threshold and cell error for each place and bend at contact.
+    Map(map::MapArgs),
+    /// Tune thresholds: false alarms, delay and the best filter, from repeats with and without contact.
+    Study(study::StudyArgs),
+    /// List the presets.
+    Presets,
+    /// Print the default scenario as TOML, every key commented.
+    Scenario,
+}
+
+/// Where a scenario comes from.
+#[derive(Debug, Args)]
+struct ScenarioArgs {
+    /// Scenario file (TOML); without it, the default scenario.
+    #[arg(value_name = "SCENARIO.toml", conflicts_with = "preset")]
+    file: Option<PathBuf>,
+    /// Start from a preset instead of a file (see `centrode presets`).
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Override one key, as in contact.disk=3; may be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+/// A scenario file larger than this is none.
+const MAX_FILE: u64 = 1 << 20;
+
+impl ScenarioArgs {
+    fn scenario(&self) -> Result<Scenario, Failure> {
+        self.resolved(None)
+    }
+
+    /// The scenario, from a preset where neither file nor preset is named.
+    fn scenario_or(&self, preset: &str) -> Result<Scenario, Failure> {
+        self.resolved(Some(preset))
+    }
+
+    fn resolved(&self, otherwise: Option<&str>) -> Result<Scenario, Failure> {
+        let named = |place: String| move |error: ScenarioError| Failure::Input(format!("{place}: {error}"));
+        let (place, mut draft) = match (&self.file, self.preset.as_deref().or(otherwise)) {
+            (Some(path), _) => {
+                let unreadable = |error| Failure::Input(format!("cannot read {}: {error}", path.display()));
+                let mut bytes = Vec::new();
+                File::open(path)
+                    .and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes))
+                    .map_err(unreadable)?;
+                if bytes.len() as u64 > MAX_FILE {
+                    return Err(Failure::Input(format!("{}: larger than 1 MiB, not a scenario", path.display())));
+                }
+                let place = path.display().to_string();
+                let draft = Draft::from_bytes(&bytes).map_err(named(place.clone()))?;
+                // A file is judged by itself first, so that what is wrong is blamed on the right one.
+                if !self.sets.is_empty() {
+                    draft.clone().known_keys_only().map_err(named(place.clone()))?;
+                }
+                (place, draft)
+            }
+            (None, Some(name)) => {
+                let preset = preset::find(name).map_err(named("--preset".into()))?;
+                (format!("preset {name}"), preset.draft().map_err(named(name.into()))?)
+            }
+            (None, None) => ("scenario".into(), Draft::default()),
+        };
+        for text in &self.sets {
+            draft.set(text).map_err(named("--set".into()))?;
+        }
+        let place = if self.sets.is_empty() { place } else { format!("{place} with --set") };
+        draft.finish().map_err(named(place))
+    }
+}
+
+/// Runs the command line of this process.
+#[must_use]
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            // Nothing is left to say when even the help finds no reader.
+            let _ = error.print();
+            return ExitCode::SUCCESS;
+        }
+        Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
+            return Failure::Input(
+                "what to do is missing: model, run, figure, table2, map, study, presets or scenario (see --help)"
+                    .into(),
+            )
+            .report();
+        }
+        Err(error) => return Failure::Input(one_line(&error.to_string())).report(),
+    };
+    let mut out = io::BufWriter::new(io::stdout().lock());
+    let done = match &cli.command {
+        Command::Model(args) => args.execute(&mut out),
+        Command::Run(args) => args.execute(&mut out),
+        Command::Figure(args) => args.execute(&mut out),
+        Command::Table2(args) => args.execute(&mut out),
+        Command::Map(args) => args.execute(&mut out),
+        Command::Study(args) => args.execute(&mut out),
+        Command::Presets => presets(&mut out),
+        Command::Scenario => out.write_all(DEFAULT_TOML.as_bytes()).map_err(Failure::Output),
+    };
+    match done.and_then(|()| out.flush().map_err(Failure::Output)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+fn presets(out: &mut impl Write) -> Result<(), Failure> {
+    let width = PRESETS.iter().map(|preset| preset.name.len()).max().unwrap_or(0);
+    for preset in PRESETS {
+        writeln!(out, "{:width$}  {}", preset.name, preset.summary())?;
+    }
+    Ok(())
+}
+
+/// The first paragraph of clap's message, without its prefix, on one line.
+fn one_line(message: &str) -> String {
+    let paragraph: Vec<_> = message.lines().take_while(|line| !line.is_empty()).map(str::trim).collect();
+    let line = paragraph.join(" ");
+    format!("{} (see --help)", line.strip_prefix("error: ").unwrap_or(&line))
+}

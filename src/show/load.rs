@@ -1,0 +1,40 @@
+//! The wrench on the end disk: an arrow for the force, words for both.
+
+use super::scene_vector;
+use crate::scene::palette::Palette;
+use crate::scene::{Label, Line, Pose, Scene};
+use centrode_core::model::Wrench;
+use centrode_core::run::Run;
+use glam::{Vec2, Vec3};
+
+/// Length of the whole force's arrow, as part of the segment's.
+const WHOLE: f32 = 0.55;
+
+/// Adds the wrench that acts on the end disk at `tip`; nothing while there is none.
+pub fn load(scene: &mut Scene, palette: &Palette, run: &Run, wrench: &Wrench, tip: &Pose) {
+    if *wrench == Wrench::ZERO {
+        return;
+    }
+    let length = WHOLE * run.plan.segment().length as f32;
+    let whole = scene_vector(&run.plan.scenario().load.force.into()).length();
+    let force = if whole > 0.0 { scene_vector(&wrench.force) / whole } else { Vec3::ZERO };
+    let (end, start) = (tip.position, tip.position - force * length);
+    if force != Vec3::ZERO {
+        let along = force.normalize();
+        let head = (0.35 * length).min(start.distance(end)) * 0.6;
+        let mut arrow = |path| scene.lines.push(Line::new(path, 3.5, palette.force).through(0.6).lifted(0.1 * length));
+        arrow(vec![start, end]);
+        for side in [along.any_orthonormal_vector(), -along.any_orthonormal_vector()] {
+            arrow(vec![end, end - along * head + side * 0.5 * head]);
+        }
+    }
+    let (force, moment) = (wrench.force.norm(), wrench.moment.norm() * 1e3);
+    let words = [(force, format!("{force:.2} N")), (moment, format!("{moment:.1} mN·m"))];
+    let text: Vec<_> = words.into_iter().filter(|(size, _)| *size > 0.0).map(|(_, words)| words).collect();
+    scene.labels.push(Label {
+        anchor: start,
+        offset: Vec2::new(10.0, -14.0),
+        text: text.join(", "),
+        color: palette.force,
+    });
+}

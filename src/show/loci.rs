@@ -1,0 +1,122 @@
+//! The signs: centrode loci, screw axes and the estimated contact.
+//!
+//! A centrode lies within the robot, so all of them shine through it; those of this instant stand before it.
+
+use super::scene_vector;
+use super::track::{self, Spot};
+use crate::scene::palette::Palette;
+use crate::scene::{Color, Label, Line, Marker, Scene, Shape};
+use centrode_core::plant::Plant;
+use centrode_core::run::Run;
+use glam::{Vec2, Vec3};
+
+/// A dot has faded to its least after this, s.
+const FADE: f64 = 2.5;
+
+/// One instant of a run, and how its signs look.
+pub struct Signs<'a> {
+    /// The run.
+    pub run: &'a Run,
+    /// Its robot.
+    pub plant: &'a Plant<'a>,
+    /// Colours.
+    pub palette: &'a Palette,
+    /// The instant, s.
+    pub time: f64,
+    /// How far signs stand before the place they mark, m: out of the robot.
+    pub lift: f32,
+}
+
+impl Signs<'_> {
+    fn length(&self) -> f32 {
+        self.run.plan.segment().length as f32
+    }
+
+    /// Loci of the fixed centrode: model (triangles), constrained (rings), sensor up to now (dots).
+    pub fn loci(&self, scene: &mut Scene) {
+        let palette = self.palette;
+        let (model, constrained) = (track::model_path(self.run), track::constrained_path(self.run));
+        self.dots(scene);
+        for (path, shape, size, color) in
+            [(model, Shape::Triangle, 9.5, palette.model), (constrained, Shape::Ring, 10.0, palette.constrained)]
+        {
+            let marks = track::marks(self.run, &path);
+            let mark = |spot: Spot| {
+                Marker::new(scene_vector(&spot.at), shape, size, color).outlined(palette.halo, 1.25).through(0.85)
+            };
+            scene.markers.extend(marks.into_iter().map(mark));
+            let path = path.iter().map(|spot| scene_vector(&spot.at)).collect();
+            scene.lines.push(Line::new(path, 1.5, color.alpha(0.7)).through(0.6));
+        }
+    }
+
+    /// The sensor's dots: one for each small place, in which the latest visit counts.
+    fn dots(&self, scene: &mut Scene) {
+        scene.markers.extend(track::dots(self.run, self.time).into_iter().map(|Spot { at, latest, .. }| {
+            let fresh = (1.0 - (self.time - latest) / FADE).max(0.0) as f32;
+            let dot =
+                Marker::new(scene_vector(&at), Shape::Dot, 7.5, self.palette.sensor).outlined(self.palette.halo, 0.75);
+            dot.faded(0.4 + 0.6 * fresh).through(0.85)
+        }));
+    }
+
+    /// The screw axes of model and sensor now, all three centrodes, and the deviation between model and sensor.
+    pub fn axes(&self, scene: &mut Scene) {
+        let palette = self.palette;
+        let half = 0.62 * self.length();
+        let sample = self.run.sample_at(self.time);
+        if let Some(held) = track::constrained(self.run, self.time).as_ref().map(scene_vector) {
+            scene.markers.push(self.sign(held, Shape::Ring, 15.0, palette.constrained));
+        }
+        let Some(model) = track::model(self.run, sample).as_ref().map(scene_vector) else { return };
+        let (s, c) = self.plant.command(self.time).0.sin_cos_delta();
+        self.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
+        let triangle = self.sign(model, Shape::Triangle, 15.0, palette.model);
+        let Some(sensor) = track::sensed(self.run, sample).as_ref().map(scene_vector) else {
+            scene.markers.push(triangle);
+            return;
+        };
+        let (deviation, armed) = (sample.judgement.deviation, track::armed(self.run, sample.time));
+        let strength = if armed { 1.0 } else { 0.45 };
+        let along = scene_vector(&sample.motion.twist.angular).normalize_or_zero() * half;
+        self.axis(scene, sensor, along, palette.sensor.alpha(strength));
+        if armed {
+            let over = self.run.plan.scenario().detection.xi2.value().is_some_and(|xi2| deviation > xi2);
+            let color = if over { palette.detection } else { palette.ink };
+            for (width, color) in [(6.0, palette.halo.alpha(0.9)), (3.0, color)] {
+                scene.lines.push(Line::new(vec![model, sensor], width, color).through(0.85).lifted(self.lift));
+            }
+            scene.labels.push(Label {
+                anchor: 0.5 * (model + sensor),
+                offset: Vec2::new(16.0, 14.0),
+                text: format!("{:.1} mm", deviation * 1e3),
+                color,
+            });
+        }
+        scene.markers.push(triangle);
+        scene.markers.push(self.sign(sensor, Shape::Dot, 18.0, palette.sensor).faded(strength));
+    }
+
+    /// A sign of this instant.
+    fn sign(&self, at: Vec3, shape: Shape, size: f32, color: Color) -> Marker {
+        Marker::new(at, shape, size, color).outlined(self.palette.halo, 1.75).through(0.9).lifted(self.lift)
+    }
+
+    fn axis(&self, scene: &mut Scene, at: Vec3, along: Vec3, color: Color) {
+        let path = vec![at - along, at + along];
+        scene.lines.push(Line::new(path, 2.0, color).dashed(0.075 * self.length(), 0.72).through(0.6));
+    }
+
+    /// The place on the backbone that the estimate names, `location` m from the base, with its label off the robot.
+    pub fn estimate(&self, scene: &mut Scene, pulse: f32, [at, off]: [Vec3; 2], location: f64) {
+        let color = self.palette.detection;
+        scene.lines.push(Line::new(vec![at, off], 1.5, color).through(0.9).lifted(self.lift));
+        scene.markers.push(self.sign(at, Shape::Diamond, 14.0, color).pulsing(pulse));
+        scene.labels.push(Label {
+            anchor: off,
+            offset: Vec2::new(-2.0, -2.0),
+            text: format!("estimate {:.1} mm", location * 1e3),
+            color,
+        });
+    }
+}

@@ -1,0 +1,169 @@
+//! The bodies: backbones, disks, the beam, and the ghost of the free shape.
+
+use crate::scene::palette::Palette;
+use crate::scene::{Block, Cap, Color, Disk, Finish, Hole, Line, Mark, Marker, Pose, Scene, Shape, Solid, Tube, arc};
+use centrode_core::run::Run;
+use centrode_core::scenario::plan::PlannedContact;
+use glam::{Quat, Vec2, Vec3};
+
+/// Frames along a backbone: enough that no corner shows.
+const FRAMES: usize = 48;
+
+/// Sizes in m that the scenario leaves open, in proportion to those it gives.
+#[derive(Debug, Clone)]
+pub struct Proportions {
+    length: f32,
+    pitch: f32,
+    /// Outer radius of a spacer disk.
+    pub disk: f32,
+    /// Radius of the beam.
+    pub beam: f32,
+    primary: f32,
+    secondary: f32,
+    spacers: Vec<f32>,
+    /// Height of the floor.
+    pub floor: f32,
+}
+
+impl Proportions {
+    /// Of the robot of a run.
+    pub fn of(run: &Run) -> Self {
+        let robot = &run.plan.scenario().robot;
+        let (length, pitch) = (robot.length as f32, robot.pitch_radius as f32);
+        let (primary, secondary) =
+            (robot.primary.outer_diameter as f32 / 2.0, robot.secondary.outer_diameter as f32 / 2.0);
+        let disk = pitch + (2.6 * secondary).max(0.3 * pitch);
+        let spacers = robot.disks.iter().map(|&s| s as f32).collect();
+        Self { length, pitch, disk, beam: 0.5 * pitch, primary, secondary, spacers, floor: -0.62 * disk }
+    }
+
+    /// Points around the base and around the end disk at `tip`: what a picture must hold of the robot in a shape.
+    pub fn outline(&self, tip: &Pose) -> impl Iterator<Item = Vec3> {
+        let foot = Pose::new(Vec3::Z * self.floor, Quat::IDENTITY);
+        let end = Pose::new(tip.point(Vec3::Z * 0.3 * self.disk), tip.rotation);
+        arc::circle(foot, 1.57 * self.disk, 12).into_iter().chain(arc::circle(end, self.disk, 12))
+    }
+
+    /// Whether a disk or the end disk stands at arc length `s` (m).
+    pub fn at_disk(&self, s: f64) -> bool {
+        self.spacers.iter().chain([&self.length]).any(|&disk| (disk - s as f32).abs() < 1e-6)
+    }
+
+    /// How far the robot's side is from its primary backbone at arc length `s` (m): a disk's rim, or a backbone.
+    pub fn surface(&self, s: f64) -> f32 {
+        if self.at_disk(s) { self.disk } else { self.pitch + self.secondary }
+    }
+
+    fn holes(&self) -> Vec<Hole> {
+        let on_pitch = (0..3).map(|i| (arc::pitch_point(self.pitch, i, 3), self.secondary));
+        std::iter::once((Vec2::ZERO, self.primary))
+            .chain(on_pitch)
+            .map(|(center, radius)| Hole { center, radius: 1.35 * radius })
+            .collect()
+    }
+}
+
+/// Base, disks, and the four backbones along `shape`.
+pub fn robot(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: impl Fn(f32) -> Pose) {
+    let thickness = 0.17 * sizes.disk;
+    let frames = arc::frames(Pose::IDENTITY, sizes.length, FRAMES, &shape);
+    let frames = arc::extended(&frames, 0.0, 1.6 * thickness);
+    let tube = |at, radius, color| Tube {
+        path: arc::offset(&frames, at),
+        radius,
+        color,
+        finish: Finish::Metal,
+        cap: Cap::Flat,
+    };
+    scene.tubes.push(tube(Vec2::ZERO, sizes.primary, palette.steel_primary));
+    for i in 0..3 {
+        scene.tubes.push(tube(arc::pitch_point(sizes.pitch, i, 3), sizes.secondary, palette.steel));
+    }
+    // The mark points along x of each disk, to backbone 1.
+    let mark = Some(Mark { angle: 0.0, color: palette.mark });
+    let disk = |s, radius, thickness, alpha| Disk {
+        pose: shape(s),
+        radius,
+        thickness,
+        holes: sizes.holes(),
+        mark,
+        color: palette.disk.alpha(alpha),
+        finish: Finish::Satin,
+    };
+    for &s in &sizes.spacers {
+        scene.disks.push(disk(s, sizes.disk, thickness, 0.72));
+    }
+    scene.disks.push(disk(sizes.length, sizes.disk, 1.7 * thickness, 0.9));
+    let mut base = disk(0.0, 1.24 * sizes.disk, 2.2 * thickness, 1.0);
+    base.pose.position.z -= 0.1 * sizes.disk;
+    scene.disks.push(base);
+    scene.blocks.push(Block {
+        pose: Pose::new(Vec3::new(0.0, 0.0, -0.45 * sizes.disk), Quat::IDENTITY),
+        solid: Solid::Cylinder { radius: 1.57 * sizes.disk, half_length: 0.17 * sizes.disk },
+        bevel: 0.07 * sizes.disk,
+        color: palette.disk.mix(Color::BLACK, 0.35),
+        finish: Finish::Matte,
+    });
+}
+
+/// The shape that the robot would have without the beam.
+pub fn ghost(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: impl Fn(f32) -> Pose) {
+    let frames = arc::frames(Pose::IDENTITY, sizes.length, FRAMES, &shape);
+    for i in 0..3 {
+        scene.tubes.push(Tube {
+            path: arc::offset(&frames, arc::pitch_point(sizes.pitch, i, 3)),
+            radius: sizes.secondary,
+            color: palette.model.alpha(0.45),
+            finish: Finish::Ghost,
+            cap: Cap::None,
+        });
+    }
+    let line = |path, width| Line::new(path, width, palette.model.alpha(0.85)).through(0.2);
+    let center = line(arc::offset(&frames, Vec2::ZERO), 1.75);
+    scene.lines.push(center.dashed(0.053 * sizes.length, 0.6));
+    for &s in sizes.spacers.iter().chain([&sizes.length]) {
+        scene.lines.push(line(arc::circle(shape(s), sizes.disk, 64), 1.25));
+    }
+}
+
+/// The beam, where the backbone meets it: a rod across the bending plane, carried by a post behind the robot.
+///
+/// `at` is the frame of the contact's arc length in the shape of the contact; `touched` whether the beam holds it now.
+pub fn beam(
+    scene: &mut Scene,
+    palette: &Palette,
+    sizes: &Proportions,
+    at: &Pose,
+    contact: &PlannedContact,
+    (delta, touched): (f32, bool),
+) {
+    let side = contact.side as f32;
+    let rod = sizes.beam;
+    // x toward which the segment bends, y along the bending axis and away from the viewer, z along the backbone.
+    let frame = at.then(&Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta)));
+    let surface = side * sizes.surface(contact.arc_length);
+    let along = |y: f32| frame.point(Vec3::new(surface + side * rod, side * y * sizes.disk, 0.0));
+    let cylinder = |position, rotation, radius, half_length| Block {
+        pose: Pose::new(position, rotation),
+        solid: Solid::Cylinder { radius, half_length },
+        bevel: 0.2 * rod,
+        color: palette.stone,
+        finish: Finish::Matte,
+    };
+    let (front, back, post) = (-0.75, 3.0, 2.6);
+    let across = frame.rotation * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
+    let half = 0.5 * (back - front) * sizes.disk;
+    scene.blocks.push(cylinder(along(0.5 * (front + back)), across, rod, half));
+    let top = along(post);
+    let half_height = 0.5 * (top.z + 1.5 * rod - sizes.floor).max(0.0);
+    let on_floor = |height: f32| Vec3::new(top.x, top.y, sizes.floor + height);
+    scene.blocks.push(cylinder(on_floor(half_height), Quat::IDENTITY, 0.95 * rod, half_height));
+    scene.blocks.push(cylinder(on_floor(0.2 * rod), Quat::IDENTITY, 2.1 * rod, 0.2 * rod));
+    if let Some(ground) = &mut scene.ground {
+        ground.contacts.push([top.x, top.y, 3.0 * rod, 0.4]);
+    }
+    if touched {
+        let touch = Marker::new(frame.point(Vec3::X * surface), Shape::Ring, 15.0, palette.ink);
+        scene.markers.push(touch.faded(0.7).through(0.7).lifted(sizes.disk));
+    }
+}
