@@ -369,6 +369,10 @@ pub struct Thresholds {
     pub armed_from: f64,
     /// The centrode deviation is judged only while ‖ω_s‖ exceeds this, rad/s (illustrative).
     pub min_speed: f64,
+    /// An event is cleared once its value has fallen below this share of the threshold (illustrative).
+    pub release: f64,
+    /// An event lasts at least this long, s (illustrative).
+    pub hold: f64,
 }
 
 impl Default for Thresholds {
@@ -380,6 +384,8 @@ impl Default for Thresholds {
             xi2: Threshold::On(0.007),
             armed_from: 5.0,
             min_speed: 0.05,
+            release: 0.8,
+            hold: 0.1,
         }
     }
 }

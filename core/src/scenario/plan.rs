@@ -258,7 +258,9 @@ fn check_sensors(scenario: &Scenario) -> Result<(), ScenarioError> {
     let factor = detection.xi1_factor;
     demand(factor >= 0.0 && factor.is_finite(), "detection.xi1_factor", factor, "a finite number, 0 or more")?;
     not_negative("detection.armed_from", detection.armed_from, "s")?;
-    not_negative("detection.min_speed", detection.min_speed, "rad/s")
+    not_negative("detection.min_speed", detection.min_speed, "rad/s")?;
+    between("detection.release", detection.release, 0.0, 1.0, "of the threshold")?;
+    not_negative("detection.hold", detection.hold, "s")
 }
 
 fn check_load(load: &Load) -> Result<(), ScenarioError> {
