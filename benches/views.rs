@@ -3,6 +3,7 @@
 use centrode::app::charts::plane::plane;
 use centrode::app::charts::plots::{PlotState, plots};
 use centrode::scene::palette::Palette;
+use centrode::show::track::Trace;
 use centrode::show::{ViewOptions, view};
 use centrode_core::run::simulate;
 use centrode_core::scenario::preset::find;
@@ -16,9 +17,10 @@ const CURSOR: f64 = 6.9;
 fn views(c: &mut Criterion) {
     let run =
         find("bench").and_then(|preset| preset.scenario()).and_then(|scenario| simulate(&scenario)).expect("bench");
+    let trace = Trace::new(&run);
     let mut group = c.benchmark_group("frame");
     let options = ViewOptions { palette: Palette::DARK, pulse: 0.0 };
-    group.bench_function("scene of the 3D view", |b| b.iter(|| view(black_box(&run), CURSOR, &options)));
+    group.bench_function("scene of the 3D view", |b| b.iter(|| view(black_box(&run), &trace, CURSOR, &options)));
     let context = egui::Context::default();
     centrode::app::theme::install(&context);
     let mut state = PlotState::default();
@@ -34,7 +36,7 @@ fn views(c: &mut Criterion) {
         b.iter(|| {
             context.run_ui(egui::RawInput::default(), |ui| {
                 let mut out = Vec::new();
-                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &run, CURSOR, &mut out));
+                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &run, &trace, CURSOR, &mut out));
             })
         });
     });

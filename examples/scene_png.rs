@@ -1,6 +1,7 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
+use centrode::show::track::Trace;
 use centrode::app::stages::viewport::{ViewState, viewport};
 use centrode::app::{layout, theme};
 use centrode_core::run::simulate;
@@ -39,7 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         let page = ui.ctx().content_rect();
                         ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
                         let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
-                        viewport(&mut view, &run, time, &mut state);
+                        viewport(&mut view, &run, &Trace::new(&run), time, &mut state);
                         layout::round(&view, page.shrink(8.0));
                     });
                 page.run_ok();

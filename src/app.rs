@@ -125,8 +125,8 @@ impl App {
         serde_json::json!({
             "state": Phase::at(run, time).words().to_lowercase(),
             "time": time,
-            "detection_time": run.detection.map(|detection| detection.time),
-            "location": run.detection.map(|detection| detection.location),
+            "detection_time": run.detection().map(|detection| detection.time),
+            "location": run.detection().map(|detection| detection.location),
             "playing": self.state.playing,
             "summary": story::sentence(run),
             "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.method)).flatten(),
@@ -220,7 +220,7 @@ impl App {
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
         if robot {
-            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, cursor, view));
+            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view));
             layout::round(ui, layout.view);
             chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
         } else {
@@ -243,7 +243,9 @@ impl App {
                     plots::plots(ui, run, cursor, plots, out);
                 }
             }),
-            Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| plane::plane(ui, run, cursor, out)),
+            Tab::Plane => {
+                layout::inside(ui, "plane", rect.shrink(8.0), |ui| plane::plane(ui, run, memo.trace(), cursor, out))
+            }
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
             if let Some(rect) = rect.filter(|rect| robot || !covered.contains_rect(*rect)) {

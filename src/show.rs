@@ -8,12 +8,12 @@ pub mod track;
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Ground, Pose, Scene};
 use centrode_core::model::{self, Arc};
-use centrode_core::plant::Plant;
 use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
 pub use robot::Proportions;
 use std::f32::consts::PI;
+use track::Trace;
 
 /// How a run is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,13 +24,14 @@ pub struct ViewOptions {
     pub pulse: f32,
 }
 
-/// The scene of `run` at `time` (s): robot, beam, ghost, screw axes, centrode loci, estimate.
+/// The scene of `run`, whose loci are `trace`, at `time` (s): robot, beam, ghost, screw axes, centrode loci, estimate.
 #[must_use]
-pub fn view(run: &Run, time: f64, options: &ViewOptions) -> Scene {
+pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene {
     let palette = &options.palette;
-    let plant = Plant::new(&run.plan);
-    let (configuration, _) = plant.command(time);
-    let (shape, held) = (plant.shape(configuration), plant.in_contact(&configuration));
+    let place = run.place(time);
+    let (shape, truth) = (run.shape(place), run.truth(place));
+    let configuration = run.recording.entries[place].configuration;
+    let held = truth.is_some_and(|truth| truth.held.is_some());
     let (sizes, length) = (Proportions::of(run), run.plan.segment().length);
     let delta = configuration.delta() as f32;
     let mut scene = Scene { ground: Some(floor(run, palette, &sizes)), ..Scene::default() };
@@ -45,11 +46,13 @@ pub fn view(run: &Run, time: f64, options: &ViewOptions) -> Scene {
         let free = Arc { length, configuration };
         robot::ghost(&mut scene, palette, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
     }
-    let signs = Signs { run, plant: &plant, palette, time, lift: 1.5 * sizes.disk };
+    let signs = Signs { run, trace, truth, palette, time, lift: 1.5 * sizes.disk };
     signs.loci(&mut scene);
     signs.axes(&mut scene);
-    load::load(&mut scene, palette, run, &plant.wrench(time), &pose(length as f32));
-    if let Some(detection) = run.detection.filter(|detection| detection.time <= time) {
+    if let Some(truth) = truth {
+        load::load(&mut scene, palette, run, &truth.wrench, &pose(length as f32));
+    }
+    if let Some(detection) = run.detection().filter(|detection| detection.time <= time) {
         // The label stands off the side from which the segment bends away.
         let aside =
             Quat::from_rotation_z(-delta) * Vec3::X * (-1.9 * sizes.disk).copysign(-configuration.bend() as f32);
@@ -66,8 +69,7 @@ pub fn home_camera(run: &Run) -> Camera {
     let motion = &run.plan.scenario().motion;
     let sizes = Proportions::of(run);
     let length = run.plan.segment().length;
-    let start = Plant::new(&run.plan).command(motion.start).0;
-    let end = Plant::new(&run.plan).command(motion.finish).0;
+    let [start, end] = [motion.start, motion.finish].map(|time| run.recording.entries[run.place(time)].configuration);
     let bends = (0..=6).map(|i| start.bend() + (end.bend() - start.bend()) * f64::from(i) / 6.0);
     let tips = bends.map(|bend| scene_pose(&Arc { length, configuration: start.with_bend(bend) }.pose(length)));
     let points: Vec<Vec3> = tips.flat_map(|tip| sizes.outline(&tip).collect::<Vec<_>>()).collect();
@@ -118,7 +120,7 @@ mod tests {
 
     fn at(scenario: &Scenario, time: f64) -> Scene {
         let run = simulate(scenario).expect("valid");
-        view(&run, time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0 })
+        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0 })
     }
 
     fn count(scene: &Scene, shape: Shape) -> usize {
@@ -194,7 +196,8 @@ mod tests {
             for size in [Vec2::new(730.0, 500.0), Vec2::new(375.0, 320.0), Vec2::new(300.0, 600.0)] {
                 let mut high = f32::MAX;
                 for time in [0.0, 5.5, 6.5, 8.0] {
-                    let scene = view(&run, time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 });
+                    let scene =
+                        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 });
                     let solid = scene.tubes.iter().filter(|tube| tube.finish != Finish::Ghost);
                     for &point in solid.flat_map(|tube| &tube.path) {
                         let at = camera.project(point, size).expect("in front").truncate() / size;
@@ -213,7 +216,9 @@ mod tests {
         scenario.motion.theta_end = 2.0 * scenario.motion.theta_start;
         let run = simulate(&scenario).expect("valid");
         let (camera, size) = (home_camera(&run), Vec2::new(800.0, 600.0));
-        let tip = |time| view(&run, time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 }).tubes[0].path[48];
+        let tip = |time| {
+            view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 }).tubes[0].path[48]
+        };
         let across = |time| camera.project(tip(time), size).expect("in front").x;
         assert!(across(8.0) > across(0.0) + 50.0);
     }

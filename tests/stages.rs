@@ -139,7 +139,7 @@ fn a_click_on_the_map_puts_the_contact_there() {
     assert!((place - 0.0225).abs() < 2e-4 && (bend - std::f64::consts::FRAC_PI_4).abs() < 0.01, "{place} {bend}");
     assert!(!app(&page).is_working(), "the map does not depend on the contact");
     assert!(!labels(&page, "Contact at 22.").is_empty() || !labels(&page, "Contact at 22,").is_empty());
-    assert!(app(&page).run().detection.is_some(), "the live run follows");
+    assert!(app(&page).run().detection().is_some(), "the live run follows");
 }
 
 #[test]

@@ -72,7 +72,7 @@ fn click(page: &mut Page, label: &str) {
 }
 
 fn detection_time(page: &Page) -> Option<f64> {
-    app(page).run().detection.map(|detection| detection.time)
+    app(page).run().detection().map(|detection| detection.time)
 }
 
 fn report(page: &Page) -> serde_json::Value {
@@ -126,7 +126,7 @@ fn every_named_slider_is_there_and_moves_the_scenario() {
     slide(&mut page, "Contact disk", 3.0);
     let expected = centrode_core::run::simulate(&by_hand).expect("run");
     assert_eq!(app(&page).run().fingerprint(), expected.fingerprint());
-    assert_eq!(report(&page)["detection_time"].as_f64(), expected.detection.map(|detection| detection.time));
+    assert_eq!(report(&page)["detection_time"].as_f64(), expected.detection().map(|detection| detection.time));
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn no_contact_clears_the_detection() {
     let mut page = page();
     assert!(detection_time(&page).is_some());
     type_into(&mut page, "Contact disk", "none");
-    assert_eq!(app(&page).run().contact_time, None);
+    assert_eq!(app(&page).run().contact_time(), None);
     assert!(field(&page, "Contact disk") == "none");
     slide(&mut page, "Contact disk", 2.0);
     assert!((detection_time(&page).expect("detected") - 6.279).abs() < 0.1);
@@ -147,7 +147,7 @@ fn a_slider_can_be_dragged() {
     page.drag_at(rect.left_center() + vec2(8.0, 0.0));
     page.run_steps(2);
     // The run is new in the very frame in which the pointer came.
-    assert_eq!(app(&page).run().contact_time, None);
+    assert_eq!(app(&page).run().contact_time(), None);
     page.hover_at(rect.right_center() - vec2(8.0, 0.0));
     page.run_steps(2);
     page.drop_at(rect.right_center() - vec2(8.0, 0.0));
@@ -179,7 +179,7 @@ fn a_short_filter_is_restless() {
     type_into(&mut page, "Filter length N", "1");
     assert_eq!(app(&page).state().scenario.filter.length, 1);
     assert!(
-        detection_time(&page).unwrap_or_else(|| panic!("no alarm: {:?}", app(&page).run().crossings)) < 5.1,
+        detection_time(&page).unwrap_or_else(|| panic!("no alarm: {:?}", app(&page).run().crossings())) < 5.1,
         "noise alone raises it"
     );
     assert!(report(&page)["summary"].as_str().is_some_and(|said| said.starts_with("False alarm")));

@@ -1,5 +1,6 @@
 //! The live plots and the bending plane, headless: what a pointer or a keyboard does, and what they look like.
 
+use centrode::show::track::Trace;
 use centrode::app::charts::plane::plane;
 use centrode::app::charts::plots::{PlotState, plots};
 use centrode::app::command::Command;
@@ -48,14 +49,14 @@ impl Page {
             let width = 0.4 * ui.available_width();
             let height = ui.available_height();
             ui.horizontal(|ui| {
-                ui.allocate_ui(vec2(width, height), |ui| plane(ui, &self.run, self.cursor, &mut out));
+                ui.allocate_ui(vec2(width, height), |ui| plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out));
                 ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
                     plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
                 });
             });
         } else {
             let width = ui.available_width();
-            ui.allocate_ui(vec2(width, 380.0), |ui| plane(ui, &self.run, self.cursor, &mut out));
+            ui.allocate_ui(vec2(width, 380.0), |ui| plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out));
             plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
         }
         self.apply(out);
@@ -120,7 +121,7 @@ fn dragging_a_threshold_sets_it_live_and_keeps_the_scale() {
     assert!(set.windows(2).all(|pair| pair[1] < pair[0]), "{set:?}");
     let last = set.last().expect("set");
     assert!((last - 0.005).abs() < 0.0002, "{last}");
-    assert!(page.run.detection.expect("detected").time < 6.279);
+    assert!(page.run.detection().expect("detected").time < 6.279);
 }
 
 #[test]
@@ -155,7 +156,7 @@ fn a_threshold_can_be_switched_off_and_on_again() {
     harness.get_by_label("ξ2 on plot, on or off").click();
     harness.run();
     assert!(matches!(harness.state().log[..], [Command::SetXi2(Threshold::OFF)]), "{:?}", harness.state().log);
-    assert!(harness.state().run.detection.is_none());
+    assert!(harness.state().run.detection().is_none());
     harness.get_by_label("ξ2 on plot, on or off").click();
     harness.run();
     let last = harness.state().log.last();
@@ -259,7 +260,7 @@ fn the_plane_fits_in_a_low_place() {
         .wgpu()
         .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
-            |ui, page: &mut Page| plane(ui, &page.run, page.cursor, &mut page.log),
+            |ui, page: &mut Page| plane(ui, &page.run, &Trace::new(&page.run), page.cursor, &mut page.log),
             Page::new("bench", 7.1),
         );
     harness.run();

@@ -1,8 +1,17 @@
-//! What is concluded from readings: the filter and both methods.
+//! What is concluded from a recording: filter, detectors, events, and the place of the contact.
 //!
-//! The detector reads a stream of measurements and does not know where they came from.
+//! Reading order: [`filter`], [`evidence`] (what is computed at each instant before any threshold), [`statistic`] (what each detector
+//! holds against its threshold, and whether it counts), [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it).
+//!
+//! Nothing here knows whether a recording was simulated.
 
-pub mod detector;
+pub mod alarm;
+pub mod evidence;
 pub mod filter;
+pub mod judge;
+pub mod statistic;
 
-pub use detector::{Crossing, Detection, Method};
+pub use alarm::{Crossing, Detection, Event};
+pub use evidence::{Evidence, Judgement};
+pub use judge::{Judged, Settings, judge};
+pub use statistic::{Method, Standing, Statistic};

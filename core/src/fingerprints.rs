@@ -64,7 +64,7 @@ fn noisy() -> Result<Scenario, ScenarioError> {
 }
 
 fn verdict(run: &Run) -> Value {
-    json!([run.crossings, run.detection, run.contact_time])
+    json!([run.crossings(), run.detection(), run.contact_time()])
 }
 
 fn figure(figure: &Figure) -> Value {

@@ -31,6 +31,7 @@ pub mod detect;
 pub mod fingerprints;
 pub mod model;
 pub mod plant;
+pub mod record;
 pub mod run;
 pub mod scenario;
 pub mod sensors;

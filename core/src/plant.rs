@@ -62,10 +62,10 @@ impl<'a> Plant<'a> {
         (self.plane.with_bend(bend_from_theta_l(theta_l)), rate)
     }
 
-    /// Whether the beam holds the backbone in a commanded configuration.
+    /// Which of the plan's contacts holds the backbone in a commanded configuration.
     #[must_use]
-    pub fn in_contact(&self, configuration: &Configuration) -> bool {
-        self.plan.contact().is_some_and(|contact| contact.holds_at(configuration.bend()))
+    pub fn held(&self, configuration: &Configuration) -> Option<usize> {
+        self.plan.contact().is_some_and(|contact| contact.holds_at(configuration.bend())).then_some(0)
     }
 
     /// The true shape in a commanded configuration.

@@ -1,13 +1,14 @@
-//! The whole experiment, sample by sample or at once.
+//! A simulated experiment and what is concluded from it: at once, or sample by sample.
 
-use crate::detect::detector::{Crossing, Detection, Detector, Judgement, Measurement};
-use crate::detect::filter::{Motion, PoseFilter};
+use crate::detect::alarm::Alarms;
+use crate::detect::evidence::Observer;
+use crate::detect::filter::Motion;
+use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
 use crate::model::Vec3;
-use crate::plant::Plant;
-use crate::scenario::Scenario;
-use crate::scenario::{Plan, ScenarioError};
-use crate::sensors::cells::SimulatedCells;
-use crate::sensors::tracker::{Reading, SimulatedTracker};
+use crate::plant::Shape;
+use crate::record::{Entry, Recorder, Recording, Truth};
+use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::sensors::tracker::Reading;
 
 /// Everything at one instant of the loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,6 +29,24 @@ pub struct Sample {
     pub tau_lc: Vec3,
     /// What the two methods make of it.
     pub judgement: Judgement,
+}
+
+impl Sample {
+    /// What was stored, what was true, and what is known of it.
+    #[must_use]
+    #[inline]
+    fn new(entry: &Entry, truth: Option<&Truth>, evidence: &Evidence) -> Self {
+        Self {
+            time: entry.time,
+            theta_l: entry.configuration.theta_l(),
+            theta_l_rate: entry.theta_l_rate,
+            in_contact: truth.is_some_and(|truth| truth.held.is_some()),
+            reading: entry.reading,
+            motion: evidence.motion,
+            tau_lc: entry.tau_lc,
+            judgement: evidence.judgement,
+        }
+    }
 }
 
 /// One column of a run: what a CSV file holds, and what a fingerprint covers.
@@ -85,48 +104,49 @@ pub const CHANNELS: &[Channel] = channels! {
     "bound_shape", "N·m", x => x.judgement.shape_bound;
 };
 
-/// The experiment as a stream: what it keeps is one filter length of readings, and the crossings.
+/// The experiment as a stream: what it keeps is one filter length of readings, the events, and the crossings unless they are taken.
 #[derive(Debug, Clone)]
 pub struct Simulation<'a> {
-    plan: &'a Plan,
-    plant: Plant<'a>,
-    tracker: SimulatedTracker,
-    cells: SimulatedCells,
-    filter: PoseFilter,
-    detector: Detector,
-    crossings: Vec<Crossing>,
+    recorder: Recorder<'a>,
+    observer: Observer,
+    alarms: Alarms,
     contact_time: Option<f64>,
-    next: usize,
 }
 
 impl<'a> Simulation<'a> {
     /// At rest before the first sample.
     #[must_use]
     pub fn new(plan: &'a Plan) -> Self {
-        let scenario = plan.scenario();
+        let settings = Settings::of(plan);
         Self {
-            plan,
-            plant: Plant::new(plan),
-            tracker: SimulatedTracker::new(plan),
-            cells: SimulatedCells::new(plan),
-            filter: PoseFilter::new(&scenario.filter, scenario.loop_rate),
-            detector: Detector::new(*plan.segment(), scenario.detection.clone(), scenario.load_cells.epsilon_tau),
-            crossings: Vec::new(),
+            recorder: Recorder::new(plan),
+            observer: Observer::new(&settings),
+            alarms: Alarms::new(&settings),
             contact_time: None,
-            next: 0,
         }
     }
 
     /// Threshold crossings so far, in order.
     #[must_use]
     pub fn crossings(&self) -> &[Crossing] {
-        &self.crossings
+        self.alarms.crossings()
+    }
+
+    /// Takes the crossings so far out, so that a long run does not gather them.
+    pub fn take_crossings(&mut self) -> Vec<Crossing> {
+        self.alarms.take_crossings()
+    }
+
+    /// Events so far, in the order in which they were raised.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        self.alarms.events()
     }
 
     /// The first detection so far.
     #[must_use]
     pub fn detection(&self) -> Option<Detection> {
-        self.detector.detection()
+        Detection::first(self.events())
     }
 
     /// Truth: time of the first sample in contact so far, s.
@@ -140,70 +160,174 @@ impl Iterator for Simulation<'_> {
     type Item = Sample;
 
     fn next(&mut self) -> Option<Sample> {
-        if self.next >= self.plan.samples() {
-            return None;
+        let (entry, truth) = self.recorder.next()?;
+        let evidence = self.observer.observe(&entry);
+        self.alarms.look(entry.time, &entry.configuration, &evidence.judgement);
+        if truth.held.is_some() && self.contact_time.is_none() {
+            self.contact_time = Some(entry.time);
         }
-        let time = self.plan.time(self.next);
-        self.next += 1;
-        let (configuration, theta_l_rate) = self.plant.command(time);
-        let in_contact = self.plant.in_contact(&configuration);
-        if in_contact && self.contact_time.is_none() {
-            self.contact_time = Some(time);
-        }
-        let reading = self.tracker.read(&self.plant, time);
-        let motion = self.filter.push(&reading);
-        let tau_lc = self.cells.read(&self.plant.joint_forces(configuration, &self.plant.wrench(time)));
-        let measurement = Measurement { time, configuration, motion, tau_lc };
-        let crossings = &mut self.crossings;
-        let judgement = self.detector.judge(&measurement, |crossing| crossings.push(crossing));
-        Some(Sample {
-            time,
-            theta_l: configuration.theta_l(),
-            theta_l_rate,
-            in_contact,
-            reading,
-            motion,
-            tau_lc,
-            judgement,
-        })
+        Some(Sample::new(&entry, Some(&truth), &evidence))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        let left = self.plan.samples() - self.next;
-        (left, Some(left))
+        self.recorder.size_hint()
     }
 }
 
-/// A finished experiment.
+/// What changed when a run was brought up to date, the first of the stages that were made anew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Anew {
+    /// Nothing.
+    Nothing,
+    /// Crossings and events: a threshold has moved.
+    Events,
+    /// What the detectors compute, too: the filter has changed.
+    Evidence,
+    /// Everything.
+    Recording,
+}
+
+/// A finished experiment: what was recorded, and what is concluded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     /// What was run.
     pub plan: Plan,
-    /// Every sample, at loop rate.
-    pub samples: Vec<Sample>,
-    /// Threshold crossings, in order.
-    pub crossings: Vec<Crossing>,
-    /// The first crossing of ξ2 and the place estimated from it.
-    pub detection: Option<Detection>,
-    /// Truth: time of the first sample in contact, s.
-    pub contact_time: Option<f64>,
+    /// What was stored, and what was true.
+    pub recording: Recording,
+    /// What is concluded.
+    pub judged: Judged,
+    contact_time: Option<f64>,
 }
 
 impl Run {
+    /// Runs a plan.
+    #[must_use]
+    pub fn new(plan: Plan) -> Self {
+        let recording = Recording::simulated(&plan);
+        let judged = judge(&recording, &Settings::of(&plan));
+        Self { contact_time: recording.contact_time(), recording, judged, plan }
+    }
+
+    /// Brings the run up to date with a plan, and makes anew no more than that asks for: a threshold neither filters nor records
+    /// again, a filter does not record again.
+    pub fn update(&mut self, plan: Plan) -> Anew {
+        let (settings, before) = (Settings::of(&plan), &self.judged.settings);
+        if plan == self.plan {
+            return Anew::Nothing;
+        }
+        if !same_recording(plan.scenario(), self.plan.scenario()) {
+            *self = Self::new(plan);
+            return Anew::Recording;
+        }
+        let anew = if settings.filter == before.filter { Anew::Events } else { Anew::Evidence };
+        if anew == Anew::Evidence {
+            self.judged = judge(&self.recording, &settings);
+        } else {
+            let empty = Judged { settings, evidence: Vec::new(), crossings: Vec::new(), events: Vec::new() };
+            let thresholds = empty.settings.thresholds.clone();
+            self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds);
+        }
+        self.plan = plan;
+        anew
+    }
+
+    /// Samples of the run, at least 1.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.recording.entries.len()
+    }
+
+    /// Never: a run has at least one sample.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.recording.entries.is_empty()
+    }
+
+    /// The sample at a place in the run.
+    ///
+    /// # Panics
+    /// When `k` is not below [`Run::len`].
+    #[must_use]
+    #[inline]
+    pub fn sample(&self, k: usize) -> Sample {
+        Sample::new(&self.recording.entries[k], self.truth(k), &self.judged.evidence[k])
+    }
+
+    /// All samples, in order.
+    pub fn samples(&self) -> impl DoubleEndedIterator<Item = Sample> + ExactSizeIterator + Clone {
+        (0..self.len()).map(|k| self.sample(k))
+    }
+
+    /// Place of the last sample not after `time` (s); the first for times before the run.
+    #[must_use]
+    pub fn place(&self, time: f64) -> usize {
+        let k = (time * self.judged.settings.loop_rate * (1.0 + 4.0 * f64::EPSILON)) as usize;
+        k.min(self.len() - 1)
+    }
+
     /// The last sample not after `time` (s); the first for times before the run.
     #[must_use]
-    pub fn sample_at(&self, time: f64) -> &Sample {
-        let k = (time * self.plan.scenario().loop_rate * (1.0 + 4.0 * f64::EPSILON)) as usize;
-        &self.samples[k.min(self.samples.len() - 1)]
+    pub fn sample_at(&self, time: f64) -> Sample {
+        self.sample(self.place(time))
+    }
+
+    /// The truth at a place in the run; none when it is not known.
+    #[must_use]
+    #[inline]
+    pub fn truth(&self, k: usize) -> Option<&Truth> {
+        self.recording.truth.as_ref().and_then(|truth| truth.get(k))
+    }
+
+    /// The shape of the backbone at a place in the run; where the truth is not known, the free shape commanded.
+    ///
+    /// # Panics
+    /// When `k` is not below [`Run::len`].
+    #[must_use]
+    pub fn shape(&self, k: usize) -> Shape {
+        let free = || Shape::Free(self.plan.segment().arc(self.recording.entries[k].configuration));
+        self.truth(k).map_or_else(free, |truth| truth.shape)
+    }
+
+    /// Threshold crossings, in order.
+    #[must_use]
+    pub fn crossings(&self) -> &[Crossing] {
+        &self.judged.crossings
+    }
+
+    /// Events of all detectors, in the order in which they were raised.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        &self.judged.events
+    }
+
+    /// The first event of the centrode, with the place that Eq. 24 gives it.
+    #[must_use]
+    pub fn detection(&self) -> Option<Detection> {
+        self.judged.detection()
+    }
+
+    /// Truth: time of the first sample in contact, s.
+    #[must_use]
+    pub fn contact_time(&self) -> Option<f64> {
+        self.contact_time
     }
 
     /// A hash of every channel of every sample: equal bits give equal fingerprints, on every machine.
     #[must_use]
     pub fn fingerprint(&self) -> u64 {
         let mut hash = Fingerprint::new();
-        self.samples.iter().for_each(|sample| hash.add(sample));
+        self.samples().for_each(|sample| hash.add(&sample));
         hash.value()
     }
+}
+
+/// Whether two scenarios differ at most in how a recording of them is judged.
+fn same_recording(one: &Scenario, other: &Scenario) -> bool {
+    // Every field by name, so that one to come is thought of.
+    let Scenario { loop_rate, seed, robot, motion, contact, tracker, load_cells, load, filter: _, detection: _ } = one;
+    (*loop_rate, *seed, *contact) == (other.loop_rate, other.seed, other.contact)
+        && (robot, motion, tracker) == (&other.robot, &other.motion, &other.tracker)
+        && (load_cells, load) == (&other.load_cells, &other.load)
 }
 
 /// A running hash over the channels' bits, a word at a time (FNV's multiplier with a rotation, so that high bits
@@ -234,11 +358,60 @@ impl Fingerprint {
 /// # Errors
 /// When the scenario is impossible: which key, which value, what is allowed.
 pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
-    let plan = Plan::new(scenario)?;
-    let mut simulation = Simulation::new(&plan);
-    let mut samples = Vec::with_capacity(plan.samples());
-    samples.extend(simulation.by_ref());
-    let (detection, contact_time) = (simulation.detection(), simulation.contact_time());
-    let crossings = std::mem::take(&mut simulation.crossings);
-    Ok(Run { samples, crossings, detection, contact_time, plan })
+    Ok(Run::new(Plan::new(scenario)?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::preset::find;
+
+    #[test]
+    fn an_update_makes_anew_what_it_must_and_gives_what_a_new_run_gives() {
+        let bench = find("bench").and_then(|preset| preset.scenario()).expect("bench");
+        let mut run = simulate(&bench).expect("valid");
+        let mut scenario = bench.clone();
+        type Change = fn(&mut Scenario);
+        let changes: [(Anew, Change); 7] = [
+            (Anew::Nothing, |_| ()),
+            (Anew::Events, |s| s.detection.xi2 = crate::scenario::Threshold::On(0.005)),
+            (Anew::Events, |s| s.detection.min_speed = 0.3),
+            (Anew::Evidence, |s| s.filter.length = 123),
+            (Anew::Recording, |s| s.load_cells.epsilon_tau = 0.05),
+            (Anew::Recording, |s| s.seed = 5),
+            (Anew::Events, |s| s.detection.hold = 0.0),
+        ];
+        for (anew, change) in changes {
+            change(&mut scenario);
+            assert_eq!(run.update(Plan::new(&scenario).expect("valid")), anew);
+            let fresh = simulate(&scenario).expect("valid");
+            assert_eq!(run.fingerprint(), fresh.fingerprint(), "{anew:?}");
+            assert_eq!((run.crossings(), run.events()), (fresh.crossings(), fresh.events()), "{anew:?}");
+            assert_eq!((&run.plan, run.contact_time()), (&fresh.plan, fresh.contact_time()));
+        }
+    }
+
+    #[test]
+    fn a_stream_gives_what_a_run_keeps() {
+        let scenario = find("bench").and_then(|preset| preset.scenario()).expect("bench");
+        let run = simulate(&scenario).expect("valid");
+        let mut stream = Simulation::new(&run.plan);
+        let mut hash = Fingerprint::new();
+        stream.by_ref().for_each(|sample| hash.add(&sample));
+        assert_eq!(hash.value(), run.fingerprint());
+        assert_eq!((stream.events(), stream.crossings()), (run.events(), run.crossings()));
+    }
+
+    #[test]
+    fn noise_around_a_threshold_is_one_event() {
+        let run = find("bench").and_then(|preset| preset.scenario()).and_then(|s| simulate(&s)).expect("bench");
+        let of = |detector| run.events().iter().filter(move |event| event.detector == detector);
+        for detector in crate::detect::Method::ALL {
+            assert_eq!(of(detector).count(), 1, "{:?}", run.events());
+        }
+        let centrode = of(crate::detect::Method::Fcd).next().expect("one");
+        assert!((centrode.raised - 6.26).abs() < 0.01, "{centrode:?}");
+        assert!(run.crossings().len() > 10);
+        assert_eq!(run.detection().map(|detection| detection.time), Some(centrode.raised));
+    }
 }

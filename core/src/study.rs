@@ -6,6 +6,7 @@
 pub mod figure;
 pub mod map;
 pub mod seed;
+pub mod shared;
 pub mod table2;
 pub mod truth;
 pub mod tuning;

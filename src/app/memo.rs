@@ -1,8 +1,9 @@
-//! Scenario → run, computed when the scenario changes.
+//! Scenario → recording → conclusions → loci, each made anew when what it depends on changes.
 
 use thiserror::Error;
 
-use centrode_core::run::{Run, simulate};
+use crate::show::track::Trace;
+use centrode_core::run::{Anew, Run, simulate};
 use centrode_core::scenario::{Plan, Scenario, ScenarioError};
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
@@ -33,11 +34,16 @@ pub enum Refusal {
 /// # Errors
 /// Why not.
 pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
-    let samples = Plan::new(scenario)?.samples();
+    plan(scenario).map(drop)
+}
+
+fn plan(scenario: &Scenario) -> Result<Plan, Refusal> {
+    let plan = Plan::new(scenario)?;
+    let samples = plan.samples();
     if samples > MAX_SAMPLES {
         return Err(Refusal::TooLong { end: scenario.motion.end, rate: scenario.loop_rate, samples });
     }
-    Ok(())
+    Ok(plan)
 }
 
 /// The last run that was possible, and why the wanted one is not.
@@ -45,6 +51,7 @@ pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
 pub struct Memo {
     wanted: Scenario,
     run: Run,
+    trace: Trace,
     refusal: Option<Refusal>,
 }
 
@@ -56,19 +63,31 @@ impl Memo {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let run = simulate(&Scenario::default()).expect("the default scenario is possible");
-        let mut memo = Self { wanted: Scenario::default(), run, refusal: None };
+        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, refusal: None };
         memo.update(scenario);
         memo
     }
 
-    /// Brings the run up to date. Returns whether the scenario had changed.
+    /// Brings everything up to date. Returns whether the scenario had changed.
     pub fn update(&mut self, scenario: &Scenario) -> bool {
         if *scenario == self.wanted {
             return false;
         }
         self.wanted = scenario.clone();
-        let run = check(scenario).and_then(|()| Ok(simulate(scenario)?));
-        self.refusal = run.map(|run| self.run = run).err();
+        match plan(scenario) {
+            Ok(plan) => {
+                self.refusal = None;
+                let looks = |run: &Run| {
+                    let detection = &run.plan.scenario().detection;
+                    (detection.armed_from, detection.min_speed)
+                };
+                let before = looks(&self.run);
+                if self.run.update(plan) > Anew::Events || looks(&self.run) != before {
+                    self.trace = Trace::new(&self.run);
+                }
+            }
+            Err(refusal) => self.refusal = Some(refusal),
+        }
         true
     }
 
@@ -76,6 +95,12 @@ impl Memo {
     #[must_use]
     pub fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// Its loci.
+    #[must_use]
+    pub fn trace(&self) -> &Trace {
+        &self.trace
     }
 
     /// Why the wanted scenario is not the one that was run.

@@ -3,10 +3,11 @@
 //! A centrode lies within the robot, so all of them shine through it; those of this instant stand before it.
 
 use super::scene_vector;
-use super::track::{self, Spot};
+use super::track::{self, Spot, Trace};
 use crate::scene::palette::Palette;
 use crate::scene::{Color, Label, Line, Marker, Scene, Shape};
-use centrode_core::plant::Plant;
+use centrode_core::detect::Standing;
+use centrode_core::record::Truth;
 use centrode_core::run::Run;
 use glam::{Vec2, Vec3};
 
@@ -17,8 +18,10 @@ const FADE: f64 = 2.5;
 pub struct Signs<'a> {
     /// The run.
     pub run: &'a Run,
-    /// Its robot.
-    pub plant: &'a Plant<'a>,
+    /// Its loci.
+    pub trace: &'a Trace,
+    /// The truth at the instant, where it is known.
+    pub truth: Option<&'a Truth>,
     /// Colours.
     pub palette: &'a Palette,
     /// The instant, s.
@@ -35,24 +38,23 @@ impl Signs<'_> {
     /// Loci of the fixed centrode: model (triangles), constrained (rings), sensor up to now (dots).
     pub fn loci(&self, scene: &mut Scene) {
         let palette = self.palette;
-        let (model, constrained) = (track::model_path(self.run), track::constrained_path(self.run));
+        let Trace { model, constrained, .. } = self.trace;
         self.dots(scene);
-        for (path, shape, size, color) in
+        for (locus, shape, size, color) in
             [(model, Shape::Triangle, 9.5, palette.model), (constrained, Shape::Ring, 10.0, palette.constrained)]
         {
-            let marks = track::marks(self.run, &path);
-            let mark = |spot: Spot| {
+            let mark = |spot: &Spot| {
                 Marker::new(scene_vector(&spot.at), shape, size, color).outlined(palette.halo, 1.25).through(0.85)
             };
-            scene.markers.extend(marks.into_iter().map(mark));
-            let path = path.iter().map(|spot| scene_vector(&spot.at)).collect();
+            scene.markers.extend(locus.marks.iter().map(mark));
+            let path = locus.path.iter().map(|spot| scene_vector(&spot.at)).collect();
             scene.lines.push(Line::new(path, 1.5, color.alpha(0.7)).through(0.6));
         }
     }
 
     /// The sensor's dots: one for each small place, in which the latest visit counts.
     fn dots(&self, scene: &mut Scene) {
-        scene.markers.extend(track::dots(self.run, self.time).into_iter().map(|Spot { at, latest, .. }| {
+        scene.markers.extend(self.trace.dots(self.time).map(|Spot { at, latest, .. }| {
             let fresh = (1.0 - (self.time - latest) / FADE).max(0.0) as f32;
             let dot =
                 Marker::new(scene_vector(&at), Shape::Dot, 7.5, self.palette.sensor).outlined(self.palette.halo, 0.75);
@@ -65,18 +67,18 @@ impl Signs<'_> {
         let palette = self.palette;
         let half = 0.62 * self.length();
         let sample = self.run.sample_at(self.time);
-        if let Some(held) = track::constrained(self.run, self.time).as_ref().map(scene_vector) {
+        if let Some(held) = track::constrained(self.run, self.truth).as_ref().map(scene_vector) {
             scene.markers.push(self.sign(held, Shape::Ring, 15.0, palette.constrained));
         }
-        let Some(model) = track::model(self.run, sample).as_ref().map(scene_vector) else { return };
-        let (s, c) = self.plant.command(self.time).0.sin_cos_delta();
+        let Some(model) = track::model(self.run, &sample).as_ref().map(scene_vector) else { return };
+        let (s, c) = self.run.recording.entries[self.run.place(self.time)].configuration.sin_cos_delta();
         self.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
         let triangle = self.sign(model, Shape::Triangle, 15.0, palette.model);
-        let Some(sensor) = track::sensed(self.run, sample).as_ref().map(scene_vector) else {
+        let Some(sensor) = track::sensed(self.run, &sample).as_ref().map(scene_vector) else {
             scene.markers.push(triangle);
             return;
         };
-        let (deviation, armed) = (sample.judgement.deviation, track::armed(self.run, sample.time));
+        let (deviation, armed) = (sample.judgement.deviation, track::standing(self.run, &sample) == Standing::Counts);
         let strength = if armed { 1.0 } else { 0.45 };
         let along = scene_vector(&sample.motion.twist.angular).normalize_or_zero() * half;
         self.axis(scene, sensor, along, palette.sensor.alpha(strength));

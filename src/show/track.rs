@@ -1,7 +1,9 @@
 //! Which centrodes of a run are shown, and where: the 3D view and the flat one draw the same marks.
 
-use centrode_core::model::{Constrained, Rate, Vec3};
-use centrode_core::plant::Plant;
+use centrode_core::detect::{Method, Standing};
+use centrode_core::model::{Rate, Vec3};
+use centrode_core::plant::Shape;
+use centrode_core::record::Truth;
 use centrode_core::run::{Run, Sample};
 
 /// Steps of the motion from which a locus is taken.
@@ -44,13 +46,13 @@ pub fn model(run: &Run, sample: &Sample) -> Option<Vec3> {
     visible(run, sample.judgement.model_centrode)
 }
 
-/// The constrained model's centrode c_c (m) at a time (s), while the beam holds.
+/// The constrained model's centrode c_c (m) by the truth at an instant, while a contact holds.
 #[must_use]
-pub fn constrained(run: &Run, time: f64) -> Option<Vec3> {
-    let (configuration, _) = Plant::new(&run.plan).command(time);
-    let contact = run.plan.contact().filter(|contact| contact.holds_at(configuration.bend()))?;
-    let held = Constrained::new(run.plan.segment().length, contact.arc_length, contact.bend, configuration);
-    visible(run, held.centrode(Rate::BENDING)?)
+pub fn constrained(run: &Run, truth: Option<&Truth>) -> Option<Vec3> {
+    match truth?.shape {
+        Shape::Free(_) => None,
+        Shape::Held(held) => visible(run, held.centrode(Rate::BENDING)?),
+    }
 }
 
 /// The sensor's centrode c_s (m) in a sample, where it moves fast enough to be judged and within the picture.
@@ -58,64 +60,108 @@ pub fn constrained(run: &Run, time: f64) -> Option<Vec3> {
 pub fn sensed(run: &Run, sample: &Sample) -> Option<Vec3> {
     let judgement = &sample.judgement;
     let far = judgement.deviation > STRAY * run.plan.segment().length;
-    let judged = judgement.speed > run.plan.scenario().detection.min_speed;
-    visible(run, judgement.sensor_centrode).filter(|_| judged && !far)
+    visible(run, judgement.sensor_centrode).filter(|_| !far && standing(run, sample) != Standing::Silent)
 }
 
-/// Whether the detection is armed at a time (s).
+/// How the centrode's deviation stands in a sample.
 #[must_use]
-pub fn armed(run: &Run, time: f64) -> bool {
-    time >= run.plan.scenario().detection.armed_from
+pub fn standing(run: &Run, sample: &Sample) -> Standing {
+    Method::Fcd.statistic(&sample.judgement, sample.time, &run.judged.settings.thresholds).standing
 }
 
-/// The samples between which θL takes equal steps over the whole motion, `steps` of them, in order: marks stand
-/// evenly, however slow the motion's ends are.
+/// Places of the samples between which θL takes equal steps over the whole motion, `steps` of them, in order: marks stand evenly,
+/// however slow the motion's ends are.
 #[must_use]
-pub fn even(run: &Run, steps: usize) -> Vec<&Sample> {
+pub fn even(run: &Run, steps: usize) -> Vec<usize> {
     let motion = &run.plan.scenario().motion;
     let step = (motion.theta_end - motion.theta_start) / steps as f64;
     let mut next = 0.0;
     let mut chosen = Vec::with_capacity(steps + 1);
-    for sample in run.samples.iter().filter(|sample| sample.time >= motion.start) {
+    for (k, sample) in run.samples().enumerate().filter(|(_, sample)| sample.time >= motion.start) {
         let done = if step == 0.0 { 0.0 } else { (sample.theta_l - motion.theta_start) / step + 1e-9 };
         if done >= next {
-            chosen.push(sample);
+            chosen.push(k);
             next = done.floor() + 1.0;
         }
     }
     chosen
 }
 
-/// The path of c_m over the motion.
-#[must_use]
-pub fn model_path(run: &Run) -> Vec<Spot> {
-    even(run, STEPS).into_iter().filter_map(|s| Some(Spot::new(s.time, model(run, s)?))).collect()
+/// A locus over the whole motion.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Locus {
+    /// Its path, in order of time.
+    pub path: Vec<Spot>,
+    /// Marks along it, at a distance from each other: a locus that hardly moves is not a blot.
+    pub marks: Vec<Spot>,
 }
 
-/// The path of c_c over the motion, while the beam holds.
-#[must_use]
-pub fn constrained_path(run: &Run) -> Vec<Spot> {
-    even(run, STEPS).into_iter().filter_map(|s| Some(Spot::new(s.time, constrained(run, s.time)?))).collect()
+impl Locus {
+    fn new(run: &Run, path: Vec<Spot>) -> Self {
+        Self { marks: spaced(&path, SPACING * run.plan.segment().length), path }
+    }
 }
 
-/// The marks of a path: a locus that hardly moves is not a blot.
-#[must_use]
-pub fn marks(run: &Run, path: &[Spot]) -> Vec<Spot> {
-    spaced(path, SPACING * run.plan.segment().length)
+/// A small place that the sensor's centrode has visited, armed and judged.
+#[derive(Debug, Clone, PartialEq)]
+struct Dot {
+    /// In {B}, m.
+    at: Vec3,
+    /// When, s, rising.
+    visits: Vec<f64>,
 }
 
-/// The dots of c_s, armed and judged, up to a time (s): one for each small place.
-#[must_use]
-pub fn dots(run: &Run, until: f64) -> Vec<Spot> {
+/// The loci of a run, made once for all its pictures.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Trace {
+    /// c_m.
+    pub model: Locus,
+    /// c_c, while a contact holds.
+    pub constrained: Locus,
+    dots: Vec<Dot>,
+}
+
+impl Trace {
+    /// Of a run.
+    #[must_use]
+    pub fn new(run: &Run) -> Self {
+        let steps = even(run, STEPS);
+        let spots = |at: &dyn Fn(usize, &Sample) -> Option<Vec3>| {
+            let spot = |&k: &usize| {
+                let sample = run.sample(k);
+                Some(Spot::new(sample.time, at(k, &sample)?))
+            };
+            Locus::new(run, steps.iter().filter_map(spot).collect())
+        };
+        Self {
+            model: spots(&|_, sample| model(run, sample)),
+            constrained: spots(&|k, _| constrained(run, run.truth(k))),
+            dots: dots(run),
+        }
+    }
+
+    /// The dots of c_s, armed and judged, up to a time (s): one for each small place.
+    pub fn dots(&self, until: f64) -> impl Iterator<Item = Spot> {
+        let visited = self.dots.iter().take_while(move |dot| dot.visits[0] <= until);
+        visited.map(move |Dot { at, visits }| {
+            let latest = visits[visits.partition_point(|&time| time <= until) - 1];
+            Spot { time: visits[0], latest, at: *at }
+        })
+    }
+}
+
+fn dots(run: &Run) -> Vec<Dot> {
     let least = GRAIN * run.plan.segment().length;
     let step = 1.max((TICK * run.plan.scenario().loop_rate) as usize);
-    let mut dots: Vec<Spot> = Vec::new();
-    let past = run.samples.iter().step_by(step).take_while(|sample| sample.time <= until);
-    for sample in past.filter(|sample| armed(run, sample.time)) {
-        let Some(at) = sensed(run, sample) else { continue };
+    let mut dots: Vec<Dot> = Vec::new();
+    for sample in (0..run.len()).step_by(step).map(|k| run.sample(k)) {
+        if standing(run, &sample) != Standing::Counts {
+            continue;
+        }
+        let Some(at) = sensed(run, &sample) else { continue };
         match dots.iter_mut().find(|dot| (dot.at - at).norm() < least) {
-            Some(dot) => dot.latest = sample.time,
-            None => dots.push(Spot::new(sample.time, at)),
+            Some(dot) => dot.visits.push(sample.time),
+            None => dots.push(Dot { at, visits: vec![sample.time] }),
         }
     }
     dots
@@ -153,7 +199,7 @@ mod tests {
     #[test]
     fn samples_stand_evenly_along_the_bend() {
         let run = run("paper");
-        let samples = even(&run, 30);
+        let samples: Vec<Sample> = even(&run, 30).into_iter().map(|k| run.sample(k)).collect();
         assert!((30..=31).contains(&samples.len()), "{}", samples.len());
         let steps: Vec<f64> = samples.windows(2).map(|pair| pair[0].theta_l - pair[1].theta_l).collect();
         let step = std::f64::consts::FRAC_PI_2 / 30.0;
@@ -162,17 +208,20 @@ mod tests {
 
     #[test]
     fn constrained_marks_exist_only_while_contact_holds() {
-        let path = constrained_path(&run("paper"));
+        let path = Trace::new(&run("paper")).constrained.path;
         assert!(!path.is_empty() && path.iter().all(|spot| spot.time >= 5.8));
-        assert!(constrained_path(&run("free")).is_empty());
+        assert!(Trace::new(&run("free")).constrained.path.is_empty());
     }
 
     #[test]
     fn dots_are_armed_and_not_of_the_future() {
         let run = run("bench");
         let armed_from = run.plan.scenario().detection.armed_from;
-        assert!(dots(&run, armed_from - 0.01).is_empty());
-        let dots = dots(&run, 6.0);
+        let trace = Trace::new(&run);
+        assert_eq!(trace.dots(armed_from - 0.01).count(), 0);
+        let dots: Vec<Spot> = trace.dots(6.0).collect();
         assert!(!dots.is_empty() && dots.iter().all(|dot| dot.time >= armed_from && dot.latest <= 6.0));
+        let later = trace.dots(8.0).filter(|dot| dot.time <= 6.0).count();
+        assert_eq!(later, dots.len(), "a dot does not go away");
     }
 }

@@ -22,11 +22,11 @@ fn run(scenario: &Scenario) -> Run {
 }
 
 fn largest_residual(run: &Run) -> f64 {
-    run.samples.iter().map(|sample| sample.judgement.residual).fold(0.0, f64::max)
+    run.samples().map(|sample| sample.judgement.residual).fold(0.0, f64::max)
 }
 
 fn alarms(run: &Run, method: Method) -> usize {
-    run.crossings.iter().filter(|crossing| crossing.method == method).count()
+    run.crossings().iter().filter(|crossing| crossing.method == method).count()
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn free_motion_stays_within_the_bound_that_fits_the_errors() {
             (CellErrors::Independent, 20.0),
         ] {
             let scenario = Scenario { seed, ..free(errors, preload) };
-            for sample in run(&scenario).samples.iter().step_by(50) {
+            for sample in run(&scenario).samples().step_by(50) {
                 let judgement = &sample.judgement;
                 let bound = match errors {
                     CellErrors::Common => judgement.common_bound,
@@ -98,8 +98,8 @@ fn a_threshold_that_follows_the_shape_tells_contact_from_a_common_error() {
     let mut held = Scenario::default();
     held.detection.xi1_rule = Xi1Rule::Bound;
     let run = run(&held);
-    let crossing = run.crossings.iter().find(|crossing| crossing.method == Method::Jfd).expect("found");
-    assert!(crossing.time > run.contact_time.expect("contact") && crossing.value > crossing.threshold);
+    let crossing = run.crossings().iter().find(|crossing| crossing.method == Method::Jfd).expect("found");
+    assert!(crossing.time > run.contact_time().expect("contact") && crossing.value > crossing.threshold);
     let shape_bound = run.sample_at(crossing.time).judgement.shape_bound;
     assert!((crossing.threshold - 1.5 * shape_bound).abs() < 1e-15);
 }
@@ -107,7 +107,7 @@ fn a_threshold_that_follows_the_shape_tells_contact_from_a_common_error() {
 #[test]
 fn the_bound_at_the_shape_is_equation_16_of_the_free_robot() {
     let scenario = free(CellErrors::Common, 3.0);
-    for sample in run(&scenario).samples.iter().step_by(100) {
+    for sample in run(&scenario).samples().step_by(100) {
         let (common, shape) = (sample.judgement.common_bound, sample.judgement.shape_bound);
         assert!((common - shape).abs() <= 1e-10 * shape + 1e-16, "{common} ≠ {shape} at {}", sample.time);
     }
@@ -127,11 +127,11 @@ fn xi1_off_silences_both_rules() {
 fn a_load_at_rest_is_caught_by_the_joint_forces_and_not_by_the_centrode() {
     let loaded = preset::find("load-at-rest").and_then(|preset| preset.scenario()).expect("a preset");
     let with = run(&loaded);
-    let found: Vec<f64> = with.crossings.iter().filter(|x| x.method == Method::Jfd).map(|x| x.time).collect();
+    let found: Vec<f64> = with.crossings().iter().filter(|x| x.method == Method::Jfd).map(|x| x.time).collect();
     let (start, finish) = (loaded.load.start, loaded.load.finish);
     assert!(found.first().is_some_and(|&time| time > start && time < finish), "{found:?}");
     assert!(loaded.motion.finish + 0.5 <= start, "the robot and its filter rest before the load comes");
-    assert_eq!((with.detection, alarms(&with, Method::Fcd)), (None, 0));
+    assert_eq!((with.detection(), alarms(&with, Method::Fcd)), (None, 0));
 
     let mut unloaded = loaded.clone();
     unloaded.load.force = [0.0; 3];

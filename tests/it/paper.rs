@@ -31,7 +31,7 @@ fn repeats(scenario: &Scenario, count: u64) -> Vec<Run> {
 }
 
 fn deviations(run: &Run, from: f64, to: f64) -> impl Iterator<Item = f64> + Clone {
-    let within = run.samples.iter().filter(move |sample| (from..=to).contains(&sample.time));
+    let within = run.samples().filter(move |sample| (from..=to).contains(&sample.time));
     within.map(|sample| sample.judgement.deviation).filter(|deviation| !deviation.is_nan())
 }
 
@@ -77,7 +77,7 @@ fn contact_is_marked_by_a_distinguishable_deviation_of_the_residual() {
     let residuals = |scenario: &Scenario, time: f64| -> Vec<f64> {
         repeats(scenario, 5).iter().map(|run| run.sample_at(time).judgement.residual).collect()
     };
-    let contact = repeats(&held, 1)[0].contact_time.expect("contact");
+    let contact = repeats(&held, 1)[0].contact_time().expect("contact");
     assert!((contact - 6.5).abs() < 0.01, "{contact}");
     let spread = |values: &[f64]| values.iter().fold((f64::MAX, 0.0f64), |(low, high), &v| (low.min(v), high.max(v)));
     let (before_free, before_held) = (residuals(&free, contact - 0.1), residuals(&held, contact - 0.1));
@@ -92,12 +92,12 @@ fn the_residual_is_not_constant_over_the_bend() {
     let scenario = preset("figure-7");
     let run = simulate(&scenario).expect("valid");
     let mean = |from: f64, to: f64| {
-        let bends = run.samples.iter().filter(|sample| (from..to).contains(&(FRAC_PI_2 - sample.theta_l).to_degrees()));
+        let bends = run.samples().filter(|sample| (from..to).contains(&(FRAC_PI_2 - sample.theta_l).to_degrees()));
         Statistic::of(bends.map(|sample| sample.judgement.residual).collect::<Vec<_>>().into_iter()).mean
     };
     let (straight, half, bent) = (mean(0.5, 5.0), mean(25.0, 35.0), mean(55.0, 61.0));
     assert!(half > 2.0 * straight && bent > 1.5 * half, "{straight}, {half}, {bent}");
-    assert_eq!(run.contact_time, None);
+    assert_eq!(run.contact_time(), None);
 }
 
 /// Fig. 8: an abrupt transient at first, then a steady deviation.
@@ -123,7 +123,7 @@ fn contact_nearer_the_tip_is_detected_sooner() {
         scenario.contact.start = Start::Bend(0.7);
         scenario.detection.xi2 = Threshold::On(xi2);
         let delays = repeats(&scenario, 5).into_iter().map(|run| {
-            run.detection.map(|detection| detection.time).expect("detected") - run.contact_time.expect("contact")
+            run.detection().map(|detection| detection.time).expect("detected") - run.contact_time().expect("contact")
         });
         Statistic::of(delays.collect::<Vec<_>>().into_iter()).mean
     };
@@ -167,14 +167,14 @@ fn contact_on_the_first_disk_is_detected_late_or_never() {
     let mut quiet = preset("disk-1");
     quiet.tracker.position_noise = 0.0;
     quiet.tracker.orientation_noise = 0.0;
-    assert_eq!(simulate(&quiet).expect("valid").detection, None);
+    assert_eq!(simulate(&quiet).expect("valid").detection(), None);
 }
 
 /// "The FCD is not defined when the angular velocity of the end disk is zero."
 #[test]
 fn the_sensors_centrode_is_not_defined_at_rest() {
     let run = simulate(&Scenario::default()).expect("valid");
-    let rest = run.samples.iter().filter(|sample| sample.time < 3.0);
+    let rest = run.samples().filter(|sample| sample.time < 3.0);
     assert!(rest.clone().count() > 1000);
     assert!(rest.into_iter().all(|sample| sample.judgement.speed == 0.0 && sample.judgement.deviation.is_nan()));
 }

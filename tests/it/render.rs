@@ -4,6 +4,7 @@ use centrode::render::{Frame, Renderer, ViewId};
 use centrode::scene::{
     Block, Camera, Color, Finish, Ground, Line, Marker, Pose, Scene, Shape, Solid, Studio, palette::Palette,
 };
+use centrode::show::track::Trace;
 use centrode::show::{ViewOptions, home_camera, view};
 use centrode_core::run::simulate;
 use centrode_core::scenario::preset;
@@ -46,7 +47,7 @@ fn shown(scene: &Scene, camera: &Camera, studio: &Studio) -> Picture {
 fn bench(palette: Palette) -> (Scene, Camera) {
     let scenario = preset::find("bench").and_then(preset::Preset::scenario).expect("preset");
     let run = simulate(&scenario).expect("run");
-    (view(&run, 7.0, &ViewOptions { palette, pulse: 0.0 }), home_camera(&run))
+    (view(&run, &Trace::new(&run), 7.0, &ViewOptions { palette, pulse: 0.0 }), home_camera(&run))
 }
 
 fn near(pixel: [u8; 4], color: Color, tolerance: i32) -> bool {

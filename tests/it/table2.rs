@@ -23,11 +23,11 @@ fn the_first_experiments_are_the_presets() {
     assert_eq!(job.rows().len(), 3);
     for (row, name) in job.rows().iter().zip(PRESETS) {
         let run = simulate(&preset(name)).expect(name);
-        let detection = run.detection.expect(name);
+        let detection = run.detection().expect(name);
         assert_eq!((row.detection_time, row.theta_l), (detection.time, detection.theta_l), "{name}");
         assert_eq!(row.location, detection.location, "{name}");
         let disk = &job.table().simulated[row.disk as usize - 1];
-        assert_eq!(Some(disk.contact_time), run.contact_time, "{name}");
+        assert_eq!(Some(disk.contact_time), run.contact_time(), "{name}");
     }
 }
 

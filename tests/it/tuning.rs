@@ -1,6 +1,6 @@
 //! The study of thresholds, held against single runs and against what is known beforehand.
 
-use centrode_core::detect::detector::Method as Lamp;
+use centrode_core::detect::Method as Lamp;
 use centrode_core::run::simulate;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::preset::find;
@@ -30,13 +30,13 @@ fn first_alarm(scenario: &Scenario, method: Method) -> u32 {
     let run = simulate(scenario).expect("valid");
     let detection = &scenario.detection;
     let mut lit = [false; 2];
-    for (k, sample) in run.samples.iter().enumerate() {
+    for (k, sample) in run.samples().enumerate() {
         let judgement = &sample.judgement;
-        let looked = judgement.looked_at(sample.time, detection);
+        let looked = Lamp::ALL.map(|lamp| lamp.statistic(judgement, sample.time, detection));
         let thresholds = [detection.xi2.value(), detection.xi1_at(judgement.shape_bound)];
         for which in 0..2 {
-            if let (Some(value), Some(threshold)) = (looked[which], thresholds[which]) {
-                lit[which] = value > threshold;
+            if let Some(above) = thresholds[which].and_then(|threshold| looked[which].above(threshold)) {
+                lit[which] = above;
             }
         }
         let alarm = match method {
@@ -98,7 +98,7 @@ fn the_first_alarm_is_the_first_crossing_of_the_run() {
     let firsts = study.run((study.cells()[0].held.expect("contact"), 0));
     for (lamp, method) in [(Lamp::Fcd, Method::Fcd), (Lamp::Jfd, Method::Jfd)] {
         let level = study.own(0, method).expect("its own threshold");
-        let crossing = run.crossings.iter().find(|crossing| crossing.method == lamp).expect("an alarm");
+        let crossing = run.crossings().iter().find(|crossing| crossing.method == lamp).expect("an alarm");
         assert_eq!(run.plan.time(firsts[method as usize][level] as usize), crossing.time);
     }
 }
@@ -135,12 +135,12 @@ fn without_noise_the_study_is_the_run() {
     let point = study.point(0, Method::Fcd, level);
     let seen = point.detection.expect("contact");
     assert_eq!((point.false_alarms.rate.count, seen.detected.count), (0, 3));
-    let delay = run.detection.expect("found").time - study.contact_time(0).expect("contact");
+    let delay = run.detection().expect("found").time - study.contact_time(0).expect("contact");
     for value in [seen.mean, seen.median, seen.median_low, seen.ninety] {
         assert!((value - delay).abs() < 1e-12, "{value} for {delay}");
     }
     assert_eq!(seen.mean_error, 0.0);
-    assert_eq!(study.contact_time(0), run.contact_time);
+    assert_eq!(study.contact_time(0), run.contact_time());
 }
 
 #[test]

@@ -83,14 +83,39 @@ pub struct Motion {
 #[derive(Debug, Clone)]
 pub struct PoseFilter {
     position: MovingAverage<3>,
+    /// Mean position, m, and its last step.
+    at: ([f64; 3], [f64; 3]),
     orientation: Orientation,
     rate: f64,
 }
 
 #[derive(Debug, Clone)]
 enum Orientation {
-    Readings { average: MovingAverage<3>, sin_cos: [(f64, f64); 3], before: Option<Mat3> },
-    Rotations { average: MovingAverage<4>, last: Option<([f64; 3], Quaternion)>, before: Quaternion },
+    Readings(Angles),
+    Rotations(Quaternions),
+}
+
+/// Averages of the three Euler angles.
+#[derive(Debug, Clone)]
+struct Angles {
+    average: MovingAverage<3>,
+    /// The means before the last reading and after it, rad.
+    before: Option<[f64; 3]>,
+    mean: Option<[f64; 3]>,
+    change: [f64; 3],
+    /// The rotation last made, of which angles, and their sines and cosines.
+    made: Option<([f64; 3], Mat3)>,
+    sin_cos: [(f64, f64); 3],
+}
+
+/// Averages of quaternions.
+#[derive(Debug, Clone)]
+struct Quaternions {
+    average: MovingAverage<4>,
+    last: Option<([f64; 3], Quaternion)>,
+    before: Quaternion,
+    mean: Quaternion,
+    change: Quaternion,
 }
 
 impl PoseFilter {
@@ -99,66 +124,127 @@ impl PoseFilter {
     pub fn new(settings: &Filter, rate: f64) -> Self {
         let length = settings.length as usize;
         let orientation = match settings.averaging {
-            Averaging::Readings => {
-                Orientation::Readings { average: MovingAverage::new(length), sin_cos: [(0.0, 1.0); 3], before: None }
-            }
-            Averaging::Rotations => {
-                Orientation::Rotations { average: MovingAverage::new(length), last: None, before: [0.0; 4] }
-            }
+            Averaging::Readings => Orientation::Readings(Angles {
+                average: MovingAverage::new(length),
+                before: None,
+                mean: None,
+                change: [0.0; 3],
+                made: None,
+                sin_cos: [(0.0, 1.0); 3],
+            }),
+            Averaging::Rotations => Orientation::Rotations(Quaternions {
+                average: MovingAverage::new(length),
+                last: None,
+                before: [0.0; 4],
+                mean: [0.0; 4],
+                change: [0.0; 4],
+            }),
         };
-        Self { position: MovingAverage::new(length), orientation, rate }
+        Self { position: MovingAverage::new(length), at: ([0.0; 3], [0.0; 3]), orientation, rate }
     }
 
     /// Takes one reading in; the motion is the backward difference of the averages.
     pub fn push(&mut self, reading: &Reading) -> Motion {
-        let (position, step) = self.position.push(&reading.position.into());
-        let turn = self.orientation.push(&reading.angles);
+        self.take(reading);
+        self.motion()
+    }
+
+    /// Takes one reading in, without asking for the motion.
+    pub fn take(&mut self, reading: &Reading) {
+        self.at = self.position.push(&reading.position.into());
+        match &mut self.orientation {
+            Orientation::Readings(angles) => angles.take(&reading.angles),
+            Orientation::Rotations(quaternions) => quaternions.take(&reading.angles),
+        }
+    }
+
+    /// The motion as of the last reading.
+    pub fn motion(&mut self) -> Motion {
+        let turn = match &mut self.orientation {
+            Orientation::Readings(angles) => angles.turn(),
+            Orientation::Rotations(quaternions) => quaternions.turn(),
+        };
+        let (position, step) = self.at;
         Motion {
             position: position.into(),
             twist: Twist { linear: Vec3::from(step) * self.rate, angular: turn * self.rate },
         }
     }
+
+    /// Whether ‖ω_s‖ is known to be at most `speed` (rad/s) without being computed: no product of three rotations turns farther
+    /// than their angles together.
+    #[must_use]
+    pub fn turns_at_most(&self, speed: f64) -> bool {
+        // Room for the roundings of the rotation itself.
+        const ROUNDING: f64 = 1e-15;
+        match &self.orientation {
+            Orientation::Readings(Angles { change, .. }) => {
+                let most = change[0].abs() + change[1].abs() + change[2].abs();
+                (most * (1.0 + 1e-12) + ROUNDING) * self.rate <= speed
+            }
+            Orientation::Rotations(_) => false,
+        }
+    }
 }
 
-impl Orientation {
-    /// The rotation vector of the last step in {B}, rad: `[Ω_s]^∨ Δt` with Ω_s = Ṙ_s R_sᵀ (Eq. 18), in which the
-    /// constant mounting R̃_g cancels.
-    fn push(&mut self, angles: &[f64; 3]) -> Vec3 {
-        match self {
-            Self::Readings { average, sin_cos, before } => {
-                let (mean, change) = average.push(angles);
-                let previous = *before;
-                if previous.is_some() && change == [0.0; 3] {
-                    return Vec3::zeros();
-                }
-                // In most experiments one of the three angles moves: the sines of the others stay.
-                for i in 0..3 {
-                    if previous.is_none() || change[i] != 0.0 {
-                        sin_cos[i] = sincos(mean[i]);
-                    }
-                }
-                let rotation = from_euler_sin_cos(sin_cos);
-                *before = Some(rotation);
-                previous.map_or_else(Vec3::zeros, |previous| vee(&(rotation * previous.transpose())))
-            }
-            Self::Rotations { average, last, before } => {
-                let quaternion = match *last {
-                    Some((same, quaternion)) if same == *angles => quaternion,
-                    _ => {
-                        // A rotation has two quaternions: take the one on the side of the reading before.
-                        let fresh = quaternion_from_euler(angles);
-                        let turned = last.is_some_and(|(_, old)| dot(&fresh, &old) < 0.0);
-                        let quaternion = if turned { fresh.map(|x| -x) } else { fresh };
-                        *last = Some((*angles, quaternion));
-                        quaternion
-                    }
-                };
-                let (mean, change) = average.push(&quaternion);
-                let previous = std::mem::replace(before, mean);
-                let size = sqrt(dot(&previous, &previous) * dot(&mean, &mean));
-                if size > 0.0 { vector_of_ratio(&change, &previous) * (2.0 / size) } else { Vec3::zeros() }
+impl Angles {
+    fn take(&mut self, angles: &[f64; 3]) {
+        self.before = self.mean;
+        let (mean, change) = self.average.push(angles);
+        (self.mean, self.change) = (Some(mean), change);
+    }
+
+    /// The rotation vector of the last step in {B}, rad: `[Ω_s]^∨ Δt` with Ω_s = Ṙ_s R_sᵀ (Eq. 18), in which the constant mounting
+    /// R̃_g cancels.
+    fn turn(&mut self) -> Vec3 {
+        let (Some(before), Some(mean)) = (self.before, self.mean) else { return Vec3::zeros() };
+        if self.change == [0.0; 3] {
+            return Vec3::zeros();
+        }
+        let previous = self.rotation(before);
+        let rotation = self.rotation(mean);
+        vee(&(rotation * previous.transpose()))
+    }
+
+    fn rotation(&mut self, angles: [f64; 3]) -> Mat3 {
+        let known = match self.made {
+            Some((of, rotation)) if of == angles => return rotation,
+            Some((of, _)) => Some(of),
+            None => None,
+        };
+        // In most experiments one of the three angles moves: the sines of the others stay.
+        for i in 0..3 {
+            if known.is_none_or(|of| of[i] != angles[i]) {
+                self.sin_cos[i] = sincos(angles[i]);
             }
         }
+        let rotation = from_euler_sin_cos(&self.sin_cos);
+        self.made = Some((angles, rotation));
+        rotation
+    }
+}
+
+impl Quaternions {
+    fn take(&mut self, angles: &[f64; 3]) {
+        let quaternion = match self.last {
+            Some((same, quaternion)) if same == *angles => quaternion,
+            _ => {
+                // A rotation has two quaternions: take the one on the side of the reading before.
+                let fresh = quaternion_from_euler(angles);
+                let turned = self.last.is_some_and(|(_, old)| dot(&fresh, &old) < 0.0);
+                let quaternion = if turned { fresh.map(|x| -x) } else { fresh };
+                self.last = Some((*angles, quaternion));
+                quaternion
+            }
+        };
+        self.before = self.mean;
+        (self.mean, self.change) = self.average.push(&quaternion);
+    }
+
+    /// The rotation vector of the last step in {B}, rad.
+    fn turn(&self) -> Vec3 {
+        let size = sqrt(dot(&self.before, &self.before) * dot(&self.mean, &self.mean));
+        if size > 0.0 { vector_of_ratio(&self.change, &self.before) * (2.0 / size) } else { Vec3::zeros() }
     }
 }
 

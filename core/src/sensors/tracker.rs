@@ -1,8 +1,7 @@
 //! The tracker: a marker's position and Euler angles, refreshed, aged, disturbed, rounded and held.
 
 use crate::model::orientation::{from_euler, to_euler};
-use crate::model::{Mat3, Vec3};
-use crate::plant::Plant;
+use crate::model::{Mat3, Pose, Vec3};
 use crate::scenario::Plan;
 use crate::scenario::{Mounting, Tracker};
 use crate::sensors::noise::{Normal, Source};
@@ -49,8 +48,9 @@ impl SimulatedTracker {
         }
     }
 
-    /// The reading that the loop sees at `time` (s).
-    pub fn read(&mut self, plant: &Plant, time: f64) -> Reading {
+    /// The reading that the loop sees at `time` (s). When it is a new one, `tip` gives the pose of the end disk in {B} at the time
+    /// (s) at which it was taken.
+    pub fn read(&mut self, time: f64, tip: impl FnOnce(f64) -> Pose) -> Reading {
         // A time one rounding error before a refresh is the refresh.
         let refresh = floor(time * self.settings.rate * (1.0 + 4.0 * f64::EPSILON));
         if let Some((at, reading)) = self.held
@@ -59,13 +59,12 @@ impl SimulatedTracker {
             return reading;
         }
         let taken = (refresh / self.settings.rate).min(time) - self.settings.latency;
-        let reading = self.measure(plant, taken.max(0.0));
+        let reading = self.measure(&tip(taken.max(0.0)));
         self.held = Some((refresh, reading));
         reading
     }
 
-    fn measure(&mut self, plant: &Plant, time: f64) -> Reading {
-        let tip = plant.shape(plant.command(time).0).tip_pose();
+    fn measure(&mut self, tip: &Pose) -> Reading {
         let settings = &self.settings;
         let noise = |noise: &mut Normal, deviation: f64| {
             if deviation > 0.0 { deviation * noise.draw() } else { 0.0 }

@@ -4,9 +4,11 @@
 //! detected, at which θL, and where along the backbone it was placed.
 
 use super::seed::repeat_seed;
-use super::truth::contact_sample;
 use super::{Job, Progress};
-use crate::run::Simulation;
+use crate::detect::alarm::Alarms;
+use crate::detect::evidence::Observer;
+use crate::detect::{Detection, Settings};
+use crate::record::Script;
 use crate::scenario::preset::find;
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use libm::sqrt;
@@ -182,7 +184,7 @@ fn numbers<const N: usize>(text: &str) -> impl Iterator<Item = [f64; N]> {
 /// The simulated Table II; a step is one experiment, and the disks take turns.
 #[derive(Debug, Clone)]
 pub struct Table2Job {
-    plans: [(Truth, Plan); 3],
+    plans: [(Truth, Plan, Script); 3],
     repeats: usize,
     rows: Vec<Row>,
 }
@@ -213,12 +215,13 @@ impl Table2Job {
         for (k, name) in PRESETS.into_iter().enumerate() {
             let scenario = Scenario { contact: find(name)?.scenario()?.contact, ..base.clone() };
             let plan = Plan::new(&scenario)?;
+            let script = Script::new(&plan);
             let truth = Truth {
                 disk: k as u64 + 1,
                 arc_length: base.robot.disks[k],
-                contact_time: contact_sample(&plan).map_or(f64::NAN, |k| plan.time(k)),
+                contact_time: script.contact_time().unwrap_or(f64::NAN),
             };
-            plans.push((truth, plan));
+            plans.push((truth, plan, script));
         }
         let plans = plans.try_into().expect("one for each preset");
         Ok(Self { plans, repeats, rows: Vec::new() })
@@ -233,7 +236,7 @@ impl Table2Job {
     /// Both tables, from the experiments made so far.
     #[must_use]
     pub fn table(&self) -> Table2 {
-        let simulated = self.plans.each_ref().map(|(truth, _)| {
+        let simulated = self.plans.each_ref().map(|(truth, ..)| {
             let alarms = self.rows.iter().filter(|row| row.disk == truth.disk && row.outcome == Outcome::FalseAlarm);
             Disk::new(*truth, &self.rows, Some(alarms.count()))
         });
@@ -246,9 +249,9 @@ impl Job for Table2Job {
         if self.progress().is_complete() {
             return;
         }
-        let (truth, plan) = &self.plans[self.rows.len() % PRESETS.len()];
+        let (truth, plan, script) = &self.plans[self.rows.len() % PRESETS.len()];
         let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
-        self.rows.push(experiment(&plan.with_seed(seed), truth));
+        self.rows.push(experiment(&plan.with_seed(seed), script, truth));
     }
 
     fn progress(&self) -> Progress {
@@ -257,11 +260,16 @@ impl Job for Table2Job {
 }
 
 /// One run, up to its detection.
-fn experiment(plan: &Plan, truth: &Truth) -> Row {
-    let mut simulation = Simulation::new(plan);
-    while simulation.detection().is_none() && simulation.next().is_some() {}
+fn experiment(plan: &Plan, script: &Script, truth: &Truth) -> Row {
+    let settings = Settings::of(plan);
+    let (mut observer, mut alarms) = (Observer::new(&settings), Alarms::new(&settings));
+    let detection = script.entries(plan).find_map(|entry| {
+        let evidence = observer.observe(&entry);
+        alarms.look(entry.time, &entry.configuration, &evidence.judgement);
+        Detection::first(alarms.events())
+    });
     let disk = truth.disk;
-    match simulation.detection() {
+    match detection {
         Some(detection) => {
             let outcome = if detection.time >= truth.contact_time { Outcome::Found } else { Outcome::FalseAlarm };
             let (detection_time, theta_l, location) = (detection.time, detection.theta_l, detection.location);

@@ -9,7 +9,7 @@ use crate::scenario::Plan;
 #[must_use]
 pub fn contact_sample(plan: &Plan) -> Option<usize> {
     let plant = Plant::new(plan);
-    let holds = |k: usize| plant.in_contact(&plant.command(plan.time(k)).0);
+    let holds = |k: usize| plant.held(&plant.command(plan.time(k)).0).is_some();
     let last = plan.samples() - 1;
     if holds(0) {
         return Some(0);

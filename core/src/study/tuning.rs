@@ -15,6 +15,7 @@ pub mod tally;
 pub mod watch;
 
 use super::seed::repeat_seed;
+use super::shared::Kept;
 use super::truth::contact_sample;
 use super::{Job, Progress};
 use crate::scenario::text::Draft;
@@ -88,6 +89,7 @@ pub struct Study {
     spec: Spec,
     batches: Vec<Batch>,
     cells: Vec<Cell>,
+    shared: Kept,
 }
 
 impl Study {
@@ -105,7 +107,7 @@ impl Study {
         if !(spec.late >= 0.0 && spec.late.is_finite()) {
             return refusal("late", spec.late.to_string(), "a finite time, 0 s or more".into());
         }
-        let mut study = Self { batches: Vec::new(), cells: Vec::new(), spec };
+        let mut study = Self { batches: Vec::new(), cells: Vec::new(), shared: Kept::default(), spec };
         for set in study.spec.cells.clone() {
             let mut draft = Draft::from_scenario(&study.spec.scenario);
             set.iter().try_for_each(|text| draft.set(text))?;
@@ -187,7 +189,8 @@ impl Study {
     #[must_use]
     pub fn run(&self, (batch, repeat): (usize, usize)) -> Firsts {
         let Batch { plan, levels, .. } = &self.batches[batch];
-        first_alarms(&plan.with_seed(repeat_seed(plan.scenario().seed, repeat as u64)), levels)
+        let plan = plan.with_seed(repeat_seed(plan.scenario().seed, repeat as u64));
+        first_alarms(&plan, levels, &self.shared.of(&plan))
     }
 
     /// Counts one repeat in.

@@ -9,7 +9,8 @@ use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
-use crate::show::track::armed;
+use crate::show::track::{Trace, standing};
+use centrode_core::detect::Standing;
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
@@ -31,7 +32,7 @@ const USUAL: f32 = 6.5;
 const REACH: f32 = 10.0;
 
 /// Shows the plane at the playback position `cursor` (s) in the space that is left.
-pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
+pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let space = ui.available_size();
     let height = if space.y.is_finite() { space.y } else { 0.95 * space.x };
@@ -40,7 +41,7 @@ pub fn plane(ui: &mut Ui, run: &Run, cursor: f64, out: &mut Vec<Command>) {
         return;
     }
     let painter = ui.painter().clone();
-    let track = Track::new(run);
+    let track = Track::new(run, trace);
     let loci = track.loci(cursor);
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
     painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
@@ -97,14 +98,14 @@ fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
         entry(Form::Dot, theme.sensor, "c_s sensor"),
         entry(Form::Solid, theme.robot, "true shape"),
     ];
-    if run.contact_time.is_some() {
+    if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
     }
     if run.plan.contact().is_some() {
         entries.push(entry(Form::Beam, theme.obstacle, "beam"));
     }
-    if run.detection.is_some() {
+    if run.detection().is_some() {
         entries.push(entry(Form::Diamond, theme.detection, "estimate"));
     }
     entries
@@ -249,8 +250,8 @@ impl View<'_> {
     fn now(&self, painter: &Painter) {
         let theme = &self.theme;
         let sample = self.run.sample_at(self.cursor);
-        let (model, sensor) = (self.track.model(sample), self.track.sensed(sample));
-        let armed = armed(self.run, sample.time);
+        let (model, sensor) = (self.track.model(&sample), self.track.sensed(&sample));
+        let armed = standing(self.run, &sample) == Standing::Counts;
         if let Some(held) = self.track.constrained(self.cursor) {
             mark(painter, self.axes.at(held), Form::Circle, 1.6 * self.size, theme.constrained, theme);
         }
@@ -290,7 +291,7 @@ impl View<'_> {
     /// After the detection: the estimated place of the contact on the backbone, against the true one.
     fn estimate(&self, painter: &Painter) {
         let theme = &self.theme;
-        let Some(detection) = self.run.detection.filter(|detection| detection.time <= self.cursor) else { return };
+        let Some(detection) = self.run.detection().filter(|detection| detection.time <= self.cursor) else { return };
         let shape = self.track.truth(self.cursor);
         let at = self.axes.at(self.track.place(&shape, detection.location));
         if let Some(contact) = self.run.plan.contact() {
@@ -300,7 +301,7 @@ impl View<'_> {
         mark(painter, at, Form::Diamond, 1.6 * self.size, theme.detection, theme);
         // In the corner that is free: beside the backbone it would cover what it points at.
         let mut text = format!("estimate {} mm", number(detection.location * 1e3, 1));
-        if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time.is_some()) {
+        if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time().is_some()) {
             text += &format!("\ntrue {} mm", number(contact.arc_length * 1e3, 1));
         }
         let galley = painter.layout_job(job(&text, TEXT - 1.0, theme.ink));

@@ -107,7 +107,7 @@ struct View<'a> {
 
 /// Time of the last sample, s.
 fn end(run: &Run) -> f64 {
-    run.samples.last().map_or(0.0, |sample| sample.time)
+    run.sample(run.len() - 1).time
 }
 
 /// Places of the three plots: a row, or a column in which the first is highest.

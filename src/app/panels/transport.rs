@@ -127,12 +127,12 @@ fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Comman
         bar(armed, x, 2.5, theme.accent);
     }
     painter.vline(armed, y - 6.0..=y + 6.0, Stroke::new(1.5, theme.dim));
-    if let Some(contact) = run.contact_time {
+    if let Some(contact) = run.contact_time() {
         let (x, top) = (at(contact), y + 6.0);
         let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
         painter.add(Shape::convex_polygon(points, theme.obstacle, Stroke::NONE));
     }
-    if let Some(detection) = run.detection {
+    if let Some(detection) = run.detection() {
         let center = pos2(at(detection.time), y - 10.0);
         let points = [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)].map(|v| center + v).to_vec();
         painter.add(Shape::convex_polygon(points, theme.detection, Stroke::NONE));
@@ -146,10 +146,10 @@ fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Comman
 /// What the marks on the rail are.
 fn marks(run: &Run) -> String {
     let mut said = format!("Armed from {} s", number(run.plan.scenario().detection.armed_from, 2));
-    if let Some(contact) = run.contact_time {
+    if let Some(contact) = run.contact_time() {
         said += &format!(" · contact at {} s", number(contact, 3));
     }
-    if let Some(detection) = run.detection {
+    if let Some(detection) = run.detection() {
         let what = match Phase::at(run, detection.time) {
             Phase::FalseAlarm => "false alarm",
             _ => "detected",

@@ -12,6 +12,7 @@ use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Renderer, ViewId};
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Scene, Studio};
+use crate::show::track::Trace;
 use crate::show::{ViewOptions, home_camera, view};
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
@@ -53,22 +54,22 @@ impl ViewState {
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, run: &Run, time: f64, dark: bool) {
+    fn update(&mut self, run: &Run, trace: &Trace, time: f64, dark: bool) {
         let scenario = run.plan.scenario();
         let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.scenario == *scenario;
         if self.shown.as_ref().is_some_and(same) {
             return;
         }
-        let since = run.detection.map_or(f64::INFINITY, |detection| time - detection.time);
+        let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        self.scene = Arc::new(view(run, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
+        self.scene = Arc::new(view(run, trace, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
         self.version += 1;
         self.shown = Some(Shown { scenario: scenario.clone(), time, dark });
     }
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState) {
+pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut ViewState) {
     let theme = Theme::of(ui);
     let rect = ui.max_rect();
     if !state.has_gpu {
@@ -81,7 +82,7 @@ pub fn viewport(ui: &mut Ui, run: &Run, cursor: f64, state: &mut ViewState) {
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
-    state.update(run, cursor, theme.dark);
+    state.update(run, trace, cursor, theme.dark);
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::for_dark(theme.dark).studio;

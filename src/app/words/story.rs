@@ -22,8 +22,8 @@ impl Phase {
     /// At a time (s) of a run.
     #[must_use]
     pub fn at(run: &Run, time: f64) -> Self {
-        match run.detection.filter(|detection| detection.time <= time) {
-            Some(alarm) if run.contact_time.is_some_and(|contact| contact <= alarm.time) => Self::Detected,
+        match run.detection().filter(|detection| detection.time <= time) {
+            Some(alarm) if run.contact_time().is_some_and(|contact| contact <= alarm.time) => Self::Detected,
             Some(_) => Self::FalseAlarm,
             None if run.sample_at(time).in_contact => Self::Contact,
             None => Self::Free,
@@ -70,7 +70,7 @@ fn seconds(duration: f64) -> String {
 fn centrode(run: &Run) -> String {
     let off = "ξ2 is off, so the centrode raised no alarm.";
     let xi2 = run.plan.scenario().detection.xi2.value();
-    match (run.contact_time, run.detection) {
+    match (run.contact_time(), run.detection()) {
         (None, None) => {
             let beam = run.plan.contact().is_some();
             let free = if beam { "The motion never reaches the beam" } else { "Nothing touches the robot" };
@@ -130,7 +130,7 @@ fn met(run: &Run, contact: f64) -> String {
 
 /// The first alarm of the joint forces.
 fn joint_alarm(run: &Run) -> Option<&Crossing> {
-    run.crossings.iter().find(|crossing| crossing.method == Method::Jfd)
+    run.crossings().iter().find(|crossing| crossing.method == Method::Jfd)
 }
 
 /// What the joint forces made of it.
@@ -138,8 +138,8 @@ fn joint_forces(run: &Run) -> String {
     if run.plan.scenario().detection.xi1.value().is_none() {
         return "ξ1 is off, so joint forces raised no alarm.".into();
     }
-    match (joint_alarm(run), run.contact_time) {
-        (None, _) if run.samples.iter().any(|sample| sample.in_contact && sample.judgement.residual.is_nan()) => {
+    match (joint_alarm(run), run.contact_time()) {
+        (None, _) if run.samples().any(|sample| sample.in_contact && sample.judgement.residual.is_nan()) => {
             "Joint forces are not defined while the beam holds so near the tip.".into()
         }
         (None, _) => "Joint forces raised no alarm.".into(),
@@ -181,11 +181,11 @@ pub fn words(run: &Run) -> String {
 /// The run in figures.
 #[must_use]
 pub fn figures(run: &Run) -> Vec<Figure> {
-    let detection = run.detection;
-    let contact = run.contact_time.unwrap_or(f64::NAN);
+    let detection = run.detection();
+    let contact = run.contact_time().unwrap_or(f64::NAN);
     let detected = detection.map_or(f64::NAN, |detection| detection.time);
     let estimate = detection.map_or(f64::NAN, |detection| detection.location * 1e3);
-    let truth = match run.contact_time {
+    let truth = match run.contact_time() {
         Some(_) => run.plan.contact().map_or(f64::NAN, |planned| planned.arc_length * 1e3),
         None => f64::NAN,
     };
@@ -303,7 +303,7 @@ mod tests {
     fn an_alarm_without_contact_is_false() {
         let contact = Scenario::default().contact;
         for early in [run("static-resolution", |_| {}), run("static-resolution", |s| s.contact = contact)] {
-            let alarm = early.detection.expect("an alarm").time;
+            let alarm = early.detection().expect("an alarm").time;
             assert_eq!(Phase::at(&early, alarm), Phase::FalseAlarm);
             assert_eq!(Phase::at(&early, early.plan.scenario().motion.end), Phase::FalseAlarm);
             assert_eq!(Phase::at(&early, alarm - 0.1), Phase::Free);
@@ -313,7 +313,7 @@ mod tests {
     #[test]
     fn words_and_figures_tell_the_same_times() {
         let run = run("paper", |_| {});
-        let (contact, alarm) = (run.contact_time.expect("contact"), run.detection.expect("alarm").time);
+        let (contact, alarm) = (run.contact_time().expect("contact"), run.detection().expect("alarm").time);
         let shown = figures(&run);
         assert_eq!(shown[0].value, number(contact, 3));
         assert_eq!(shown[1].value, number(alarm, 3));

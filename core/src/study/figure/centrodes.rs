@@ -45,7 +45,7 @@ impl Centrodes {
     fn locus(&self, plan: &Plan) -> Vec<[f64; 2]> {
         let plant = Plant::new(plan);
         let held = plan.contact().is_some();
-        let chosen = self.even(MARKS).filter(|configuration| !held || plant.in_contact(configuration));
+        let chosen = self.even(MARKS).filter(|configuration| !held || plant.held(configuration).is_some());
         chosen
             .filter_map(|configuration| {
                 let (pose, jacobian) = plant.shape(configuration).tip_pose_and_jacobian();
@@ -64,7 +64,7 @@ impl Centrodes {
                 style: Style::Line,
                 points: self.backbone(&configuration, &free.shape(configuration)),
             });
-            if held.in_contact(&configuration) {
+            if held.held(&configuration).is_some() {
                 series.push(Series {
                     name: "backbone with constraint".into(),
                     role: Role::Constrained,

@@ -1,10 +1,12 @@
 //! When each threshold would first have raised an alarm: all of them in one pass over a run.
 
 use super::levels::Levels;
-use crate::detect::detector::Judgement;
-use crate::run::Simulation;
-use crate::scenario::Plan;
-use crate::scenario::{Thresholds, Xi1Rule};
+use crate::detect::evidence::deviation;
+use crate::detect::filter::PoseFilter;
+use crate::detect::{Method as Detector, Standing, Statistic};
+use crate::scenario::{Plan, Thresholds, Xi1Rule};
+use crate::sensors::cells::SimulatedCells;
+use crate::study::shared::Shared;
 use serde::{Deserialize, Serialize};
 
 /// How an alarm is raised.
@@ -76,17 +78,17 @@ impl<'a> Watch<'a> {
         }
     }
 
-    fn look(&mut self, sample: u32, time: f64, judgement: &Judgement) {
-        let [deviation, residual] = judgement.looked_at(time, self.thresholds);
-        if let Some(residual) = residual {
+    /// Looks at both values of one sample; those that do not count leave the alarms as they were.
+    fn look(&mut self, sample: u32, [deviation, residual]: [Statistic; 2], shape_bound: f64) {
+        if let Some(residual) = residual.counted() {
             let unit = match self.thresholds.xi1_rule {
                 Xi1Rule::Constant => 1.0,
-                Xi1Rule::Bound => judgement.shape_bound,
+                Xi1Rule::Bound => shape_bound,
             };
             self.raise(Method::Jfd, sample, |level| residual > level * unit);
-            self.forces_above = self.thresholds.xi1_at(judgement.shape_bound).is_some_and(|xi1| residual > xi1);
+            self.forces_above = self.thresholds.xi1_at(shape_bound).is_some_and(|xi1| residual > xi1);
         }
-        if let Some(deviation) = deviation {
+        if let Some(deviation) = deviation.counted() {
             self.deviation = deviation;
             self.raise(Method::Fcd, sample, |level| deviation > level);
             self.raise(Method::Or, sample, |level| deviation > level);
@@ -108,12 +110,39 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Runs a plan and says when each level of each method was first crossed.
+/// Runs a plan and says when each level of each method was first crossed. `shared` is what the plan's repeats have in common.
 #[must_use]
-pub fn first_alarms(plan: &Plan, levels: &Levels) -> Firsts {
-    let mut watch = Watch::new(levels, &plan.scenario().detection);
-    for (k, sample) in Simulation::new(plan).enumerate() {
-        watch.look(k as u32, sample.time, &sample.judgement);
+pub fn first_alarms(plan: &Plan, levels: &Levels, shared: &Shared) -> Firsts {
+    let scenario = plan.scenario();
+    let (segment, thresholds) = (plan.segment(), &scenario.detection);
+    let mut watch = Watch::new(levels, thresholds);
+    let mut filter = PoseFilter::new(&scenario.filter, scenario.loop_rate);
+    let mut cells = SimulatedCells::new(plan);
+    let script = shared.script();
+    for (k, (step, reading)) in script.steps().iter().zip(script.readings(plan)).enumerate() {
+        filter.take(&reading);
+        let known = shared.residual(k);
+        let tau_lc = if known.is_none() { Some(cells.read(&step.tau)) } else { None };
+        if step.time < thresholds.armed_from {
+            continue;
+        }
+        let expected = shared.expectation(k);
+        let residual = match (known, tau_lc) {
+            (Some(residual), _) => residual,
+            (None, Some(tau_lc)) => expected.residual(segment, &step.configuration, &tau_lc),
+            (None, None) => f64::NAN,
+        };
+        let standing = Detector::Jfd.standing(residual, 0.0, step.time, thresholds);
+        let forces = Statistic { value: residual, standing };
+        let centrode = if filter.turns_at_most(thresholds.min_speed) {
+            Statistic { value: f64::NAN, standing: Standing::Silent }
+        } else {
+            let motion = filter.motion();
+            let (_, value) = deviation(&expected.centrode, &motion);
+            let speed = motion.twist.angular.norm();
+            Statistic { value, standing: Detector::Fcd.standing(value, speed, step.time, thresholds) }
+        };
+        watch.look(k as u32, [centrode, forces], expected.shape_bound);
     }
     watch.firsts
 }

@@ -2,9 +2,9 @@
 
 use crate::app::charts::plane::flat::{Flat, MM, Mark, Projection, shifted};
 use crate::show::Proportions;
-use crate::show::track::{self, Spot};
+use crate::show::track::{self, Locus, Spot, Trace};
 use centrode_core::model::Arc;
-use centrode_core::plant::{Plant, Shape};
+use centrode_core::plant::Shape;
 use centrode_core::run::{Run, Sample};
 
 /// Points of a drawn backbone.
@@ -47,32 +47,32 @@ pub struct Beam {
 #[derive(Debug, Clone)]
 pub struct Track<'a> {
     run: &'a Run,
+    trace: &'a Trace,
     sizes: Proportions,
-    plant: Plant<'a>,
     projection: Projection,
 }
 
 impl<'a> Track<'a> {
-    /// The track of a run.
+    /// The track of a run with its loci.
     #[must_use]
-    pub fn new(run: &'a Run) -> Self {
-        let plant = Plant::new(&run.plan);
-        let projection = Projection::of(plant.command(0.0).0);
-        Self { run, sizes: Proportions::of(run), plant, projection }
+    pub fn new(run: &'a Run, trace: &'a Trace) -> Self {
+        let projection = Projection::of(run.recording.entries[0].configuration);
+        Self { run, trace, sizes: Proportions::of(run), projection }
     }
 
     /// The true shape at a time.
     #[must_use]
     pub fn truth(&self, time: f64) -> Shape {
-        self.plant.shape(self.plant.command(time).0)
+        self.run.shape(self.run.place(time))
     }
 
     /// The shape without constraint, while contact holds at a time.
     #[must_use]
     pub fn ghost(&self, time: f64) -> Option<Vec<Flat>> {
-        let configuration = self.plant.command(time).0;
-        let arc = Arc { length: self.run.plan.segment().length, configuration };
-        self.plant.in_contact(&configuration).then(|| self.backbone(&Shape::Free(arc)))
+        let place = self.run.place(time);
+        self.run.truth(place)?.held?;
+        let configuration = self.run.recording.entries[place].configuration;
+        Some(self.backbone(&Shape::Free(self.run.plan.segment().arc(configuration))))
     }
 
     /// A point of a shape, mm.
@@ -119,7 +119,7 @@ impl<'a> Track<'a> {
     pub fn beam(&self) -> Option<Beam> {
         let contact = self.run.plan.contact()?;
         let segment = self.run.plan.segment();
-        let configuration = self.plant.command(0.0).0.with_bend(contact.bend);
+        let configuration = self.run.recording.entries[0].configuration.with_bend(contact.bend);
         let pose = Arc { length: segment.length, configuration }.pose(contact.arc_length);
         let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
         let radius = f64::from(self.sizes.beam) * MM;
@@ -136,7 +136,7 @@ impl<'a> Track<'a> {
     /// c_c at a time, while contact holds, mm.
     #[must_use]
     pub fn constrained(&self, time: f64) -> Option<Flat> {
-        track::constrained(self.run, time).as_ref().map(|at| self.projection.point(at))
+        track::constrained(self.run, self.run.truth(self.run.place(time))).as_ref().map(|at| self.projection.point(at))
     }
 
     /// c_s in a sample where it is judged, mm.
@@ -148,15 +148,10 @@ impl<'a> Track<'a> {
     /// The loci, the sensor's up to a time (s).
     #[must_use]
     pub fn loci(&self, until: f64) -> Loci {
-        let run = self.run;
-        let flat = |spots: Vec<Spot>| {
-            spots.into_iter().map(|spot| Mark { time: spot.time, at: self.projection.point(&spot.at) }).collect()
-        };
-        Loci {
-            model: flat(track::marks(run, &track::model_path(run))),
-            constrained: flat(track::marks(run, &track::constrained_path(run))),
-            sensor: flat(track::dots(run, until)),
-        }
+        let mark = |spot: Spot| Mark { time: spot.time, at: self.projection.point(&spot.at) };
+        let flat = |locus: &Locus| locus.marks.iter().copied().map(mark).collect();
+        let Trace { model, constrained, .. } = self.trace;
+        Loci { model: flat(model), constrained: flat(constrained), sensor: self.trace.dots(until).map(mark).collect() }
     }
 
     /// Least and greatest coordinates of what the whole run draws, mm, sensor apart: it may lie anywhere.
@@ -172,11 +167,10 @@ impl<'a> Track<'a> {
             }
         };
         loci.model.iter().chain(&loci.constrained).for_each(|mark| include(mark.at));
-        let first = self.run.samples.first();
-        for sample in first.into_iter().chain(track::even(self.run, 12)) {
-            let shape = self.truth(sample.time);
-            self.disks(&shape).iter().flatten().for_each(|&at| include(at));
-            self.ghost(sample.time).into_iter().flatten().for_each(&mut include);
+        for place in std::iter::once(0).chain(track::even(self.run, 12)) {
+            self.disks(&self.run.shape(place)).iter().flatten().for_each(|&at| include(at));
+            let time = self.run.recording.entries[place].time;
+            self.ghost(time).into_iter().flatten().for_each(&mut include);
         }
         if let Some(Beam { center, radius, .. }) = self.beam() {
             include(center.map(|x| x - radius));
@@ -202,7 +196,8 @@ mod tests {
             let mut scenario = Scenario::default();
             scenario.motion.delta = delta;
             let run = simulate(&scenario).expect("run");
-            let track = Track::new(&run);
+            let trace = Trace::new(&run);
+            let track = Track::new(&run, &trace);
             (track.bounds(&track.loci(99.0)), track.beam().expect("beam"))
         };
         let (straight, turned) = (flat(0.0), flat(2.1));
@@ -217,7 +212,8 @@ mod tests {
     #[test]
     fn the_beam_touches_the_disk_rim_on_the_side_bent_to() {
         let run = run("paper");
-        let track = Track::new(&run);
+        let trace = Trace::new(&run);
+        let track = Track::new(&run, &trace);
         let beam = track.beam().expect("beam");
         let away = (beam.center[0] - beam.touches[0]).hypot(beam.center[1] - beam.touches[1]);
         assert!((away - (f64::from(Proportions::of(&run).disk) * MM + beam.radius)).abs() < 1e-9);
@@ -234,7 +230,8 @@ mod tests {
         let mut scenario = Scenario::default();
         scenario.motion.theta_end = scenario.motion.theta_start;
         let run = simulate(&scenario).expect("run");
-        let track = Track::new(&run);
+        let trace = Trace::new(&run);
+        let track = Track::new(&run, &trace);
         let bounds = track.bounds(&track.loci(99.0));
         assert!(bounds.iter().flatten().all(|x| x.is_finite()));
     }

@@ -150,7 +150,7 @@ impl Frame {
         color: Color32,
         style: Style,
     ) -> Vec<Vec<Column>> {
-        let samples = run.samples.iter().map(|sample| (sample.time, value(sample)));
+        let samples = run.samples().map(|sample| (sample.time, value(&sample)));
         let stretches = columns(samples, &self.time, self.pixel);
         let painter = painter.with_clip_rect(self.data.intersect(painter.clip_rect()));
         for stretch in &stretches {
@@ -262,13 +262,13 @@ impl View<'_> {
 
     /// A thin line at the time under the pointer, in every plot, with this plot's values there.
     pub fn hover(&self, painter: &Painter, lines: impl Fn(&Sample) -> Vec<LayoutJob>) {
-        let Some(time) = self.hovered.filter(|_| self.run.samples.len() > 1) else { return };
+        let Some(time) = self.hovered.filter(|_| self.run.len() > 1) else { return };
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let sample = self.run.sample_at(time);
         let x = painter.round_to_pixel_center(self.frame.time.at(sample.time));
         painter.vline(x, data.y_range(), Stroke::new(1.0, theme.dim.gamma_multiply(0.8)));
         let mut text = vec![job(&Frame::clock(sample.time), SMALL + 1.0, theme.dim)];
-        text.extend(lines(sample));
+        text.extend(lines(&sample));
         note(painter, theme, pos2(x, data.top() + 4.0), data, text);
     }
 }

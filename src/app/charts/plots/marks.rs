@@ -101,7 +101,7 @@ impl View<'_> {
 
     /// The detection, as a dashed line.
     pub fn detection(&self, painter: &Painter) {
-        let Some(detection) = &self.run.detection else { return };
+        let Some(detection) = &self.run.detection() else { return };
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let x = painter.round_to_pixel_center(self.frame.time.at(detection.time));
         let line = [pos2(x, data.top()), pos2(x, data.bottom())];
@@ -110,7 +110,7 @@ impl View<'_> {
 
     /// When the detection is, in words beside its line.
     pub fn detection_label(&self, painter: &Painter) {
-        let Some(detection) = &self.run.detection else { return };
+        let Some(detection) = &self.run.detection() else { return };
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let x = self.frame.time.at(detection.time);
         let text = format!("detected {}", Frame::clock(detection.time));
@@ -129,10 +129,10 @@ impl View<'_> {
         let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|pos| self.frame.data.contains(*pos));
         let mut near: Option<(f32, &Crossing, Pos2)> = None;
         let mut last = f32::NEG_INFINITY;
-        for crossing in self.run.crossings.iter().filter(|crossing| crossing.method == judged.method) {
+        for crossing in self.run.crossings().iter().filter(|crossing| crossing.method == judged.method) {
             let at = pos2(self.frame.time.at(crossing.time), values.at(crossing.threshold * judged.scale));
             let first = crossing.method == Method::Fcd
-                && self.run.detection.as_ref().is_some_and(|detection| detection.time == crossing.time);
+                && self.run.detection().is_some_and(|detection| detection.time == crossing.time);
             if at.x - last < CROWDED && !first {
                 continue;
             }
@@ -173,7 +173,7 @@ fn mark(painter: &Painter, at: Pos2, method: Method, first: bool, color: Color32
 pub fn contacts(run: &Run) -> Vec<(f64, f64)> {
     let mut spans: Vec<(f64, f64)> = Vec::new();
     let mut held = false;
-    for sample in &run.samples {
+    for sample in run.samples() {
         match spans.last_mut() {
             Some(span) if sample.in_contact && held => span.1 = sample.time,
             _ if sample.in_contact => spans.push((sample.time, sample.time)),
@@ -204,7 +204,7 @@ mod tests {
         let run = run("paper");
         let spans = contacts(&run);
         assert_eq!(spans.len(), 1);
-        assert_eq!(Some(spans[0].0), run.contact_time);
+        assert_eq!(Some(spans[0].0), run.contact_time());
         assert_eq!(spans[0].1, 10.0);
     }
 

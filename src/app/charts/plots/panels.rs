@@ -129,8 +129,8 @@ fn judging(
     let otherwise = view.state.last_on[which].unwrap_or(default);
     let high = view.state.held[which].unwrap_or_else(|| {
         let armed_from = view.run.plan.scenario().detection.armed_from;
-        let judged = view.run.samples.iter().filter(|sample| sample.time >= armed_from && is_judged(sample));
-        let mut values: Vec<f64> = judged.map(&value).collect();
+        let judged = view.run.samples().filter(|sample| sample.time >= armed_from && is_judged(sample));
+        let mut values: Vec<f64> = judged.map(|sample| value(&sample)).collect();
         top(threshold.value().unwrap_or(otherwise) * shown.judged.scale, &mut values)
     });
     let values = view.frame.values([0.0, high]);
@@ -140,13 +140,13 @@ fn judging(
     let decimals = shown.judged.decimals;
     let mut readouts = vec![ReadOut {
         name: if shown.others.is_empty() { "" } else { shown.judged.name },
-        value: number(value(now), decimals),
+        value: number(value(&now), decimals),
         color: shown.color,
         style: Style::Strong,
     }];
     readouts.extend(shown.others.iter().map(|other| ReadOut {
         name: other.name,
-        value: number((other.value)(now), decimals),
+        value: number((other.value)(&now), decimals),
         color: other.color,
         style: other.style,
     }));
@@ -172,8 +172,8 @@ fn judging(
     }
     frame.off_scale(&painter, &values, &moving, shown.color);
     view.detection(&painter);
-    let mut dots: Vec<_> = shown.others.iter().map(|other| ((other.value)(now), other.color)).collect();
-    dots.push((value(now), shown.color));
+    let mut dots: Vec<_> = shown.others.iter().map(|other| ((other.value)(&now), other.color)).collect();
+    dots.push((value(&now), shown.color));
     view.cursor(&painter, &values, &dots);
 
     view.arming(ui, &painter);
@@ -219,13 +219,13 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     let margin = 0.08 * (a - b).abs().max(10.0);
     let values = frame.values([a.min(b) - margin, a.max(b) + margin]);
     let now = view.run.sample_at(view.cursor);
-    let readout = ReadOut { name: "", value: number(value(now), 1), color: theme.robot, style: Style::Strong };
+    let readout = ReadOut { name: "", value: number(value(&now), 1), color: theme.robot, style: Style::Strong };
     view.scrub(ui, "Plot of the tangent angle over time");
     frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
     frame.grid(&painter, &values, Steps::Degrees);
     view.contact(&painter, frame.data.height());
     frame.curve(&painter, view.run, &values, value, theme.robot, Style::Strong);
     view.detection(&painter);
-    view.cursor(&painter, &values, &[(value(now), theme.robot)]);
+    view.cursor(&painter, &values, &[(value(&now), theme.robot)]);
     view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
 }

@@ -38,14 +38,14 @@ fn entries(run: &Run, theme: &Theme, narrow: bool) -> Vec<Entry> {
     let entry = |form, color, text| Entry { form, color, text };
     let mut entries =
         vec![entry(Form::Triangle, theme.model, "c_m model"), entry(Form::Dot, theme.sensor, "c_s sensor")];
-    if run.contact_time.is_some() {
+    if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
     }
-    if run.detection.is_some() {
+    if run.detection().is_some() {
         entries.push(entry(Form::Diamond, theme.detection, "estimate"));
     }
     entries.push(entry(Form::Axis, theme.dim, "screw axis"));
-    if run.contact_time.is_some() {
+    if run.contact_time().is_some() {
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
     }
     if !narrow {

@@ -1,0 +1,119 @@
+//! What both methods compute at each instant, before any threshold: filtered motion, centrodes, joint forces (Eqs. 12, 16–18).
+
+use super::filter::{Motion, PoseFilter};
+use super::judge::Settings;
+use crate::model::centrode::centrode;
+use crate::model::{Configuration, Covector, Rate, Segment, Vec3};
+use crate::record::Entry;
+
+/// Added to ε_τ where the bound is a threshold, so that the last bits of Θ raise no alarm at k = 1 or without errors.
+const ROUNDING: f64 = 1e-12;
+
+/// What both methods make of one instant. A value that is not defined is NaN, never 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Judgement {
+    /// The model's centrode c_m, m (Eq. 17); its limit while the robot rests.
+    pub model_centrode: Vec3,
+    /// The sensor's centrode c_s, m (Eq. 18); not defined while ω_s = 0.
+    pub sensor_centrode: Vec3,
+    /// ‖c_m − c_s‖, m (Eq. 19); not defined while ω_s = 0.
+    pub deviation: f64,
+    /// ‖ω_s‖, rad/s.
+    pub speed: f64,
+    /// Θ, N·m (Eq. 12).
+    pub residual: f64,
+    /// ε_c for one error common to the three cells, N·m (Eq. 16).
+    pub common_bound: f64,
+    /// ε_c for independent errors of the cells, N·m.
+    pub independent_bound: f64,
+    /// ε_c(θL) of the free model at the commanded shape, N·m: what ξ1 follows when it follows the shape.
+    pub shape_bound: f64,
+}
+
+/// What is known of one instant without a threshold.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evidence {
+    /// Position and motion of the end disk as the filtered tracker shows them.
+    pub motion: Motion,
+    /// What the two methods make of it.
+    pub judgement: Judgement,
+}
+
+/// What the free model expects in a commanded configuration: the same in every repeat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Expectation {
+    /// The model's centrode c_m, m (Eq. 17); NaN where it has none.
+    pub centrode: Vec3,
+    /// ∇E, N·m (Eq. 10).
+    pub gradient: Covector,
+    /// ε_c(θL) of the free model, N·m.
+    pub shape_bound: f64,
+}
+
+impl Expectation {
+    /// Of a segment, whose load cells may err by a share `epsilon_tau`.
+    #[must_use]
+    pub fn new(segment: &Segment, configuration: Configuration, epsilon_tau: f64) -> Self {
+        let (pose, jacobian) = segment.arc(configuration).pose_and_jacobian(segment.length);
+        Self {
+            centrode: jacobian.centrode(&pose.position, Rate::BENDING).unwrap_or(UNDEFINED),
+            gradient: segment.energy_gradient(&configuration),
+            shape_bound: segment.shape_bound(&configuration, epsilon_tau + ROUNDING),
+        }
+    }
+
+    /// Θ, N·m, where the load cells read `tau_lc` (N): [`Segment::residual`] with the gradient already there.
+    #[must_use]
+    pub fn residual(&self, segment: &Segment, configuration: &Configuration, tau_lc: &Vec3) -> f64 {
+        segment.generalised_force(configuration, tau_lc).minus(&self.gradient).norm()
+    }
+}
+
+const UNDEFINED: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
+
+/// The sensor's centrode (m) and its distance from the model's (m); NaN where the end disk does not turn.
+#[must_use]
+pub fn deviation(model_centrode: &Vec3, motion: &Motion) -> (Vec3, f64) {
+    let sensor_centrode = centrode(&motion.position, &motion.twist).unwrap_or(UNDEFINED);
+    (sensor_centrode, (model_centrode - sensor_centrode).norm())
+}
+
+/// Entries in, evidence out: it keeps one filter length of readings.
+#[derive(Debug, Clone)]
+pub struct Observer {
+    segment: Segment,
+    epsilon_tau: f64,
+    filter: PoseFilter,
+}
+
+impl Observer {
+    /// Before the first entry.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        Self {
+            segment: settings.segment,
+            epsilon_tau: settings.epsilon_tau,
+            filter: PoseFilter::new(&settings.filter, settings.loop_rate),
+        }
+    }
+
+    /// Takes the next entry.
+    pub fn observe(&mut self, entry: &Entry) -> Evidence {
+        let Entry { configuration, reading, tau_lc, .. } = entry;
+        let (segment, epsilon_tau) = (&self.segment, self.epsilon_tau);
+        let motion = self.filter.push(reading);
+        let expected = Expectation::new(segment, *configuration, epsilon_tau);
+        let (sensor_centrode, deviation) = deviation(&expected.centrode, &motion);
+        let judgement = Judgement {
+            model_centrode: expected.centrode,
+            sensor_centrode,
+            deviation,
+            speed: motion.twist.angular.norm(),
+            residual: expected.residual(segment, configuration, tau_lc),
+            common_bound: segment.common_error_bound(configuration, tau_lc, epsilon_tau),
+            independent_bound: segment.independent_error_bound(configuration, tau_lc, epsilon_tau),
+            shape_bound: expected.shape_bound,
+        };
+        Evidence { motion, judgement }
+    }
+}

@@ -1,0 +1,97 @@
+//! A recording and settings in, everything concluded out.
+
+use super::alarm::{Alarms, Crossing, Detection, Event};
+use super::evidence::{Evidence, Observer};
+use super::statistic::Method;
+use crate::model::Segment;
+use crate::record::Recording;
+use crate::scenario::{Filter, Plan, Thresholds};
+
+/// What a recording is judged with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// The model of the robot.
+    pub segment: Segment,
+    /// Assumed relative error ε_τ of the load cells.
+    pub epsilon_tau: f64,
+    /// Rate of the loop that stored the recording, Hz.
+    pub loop_rate: f64,
+    /// The moving average over the tracker's readings.
+    pub filter: Filter,
+    /// Thresholds, and when they are looked at.
+    pub thresholds: Thresholds,
+}
+
+impl Settings {
+    /// Those of a plan.
+    #[must_use]
+    pub fn of(plan: &Plan) -> Self {
+        let scenario = plan.scenario();
+        Self {
+            segment: *plan.segment(),
+            epsilon_tau: scenario.load_cells.epsilon_tau,
+            loop_rate: scenario.loop_rate,
+            filter: scenario.filter.clone(),
+            thresholds: scenario.detection.clone(),
+        }
+    }
+}
+
+/// What is concluded from a recording.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judged {
+    /// With what it was judged.
+    pub settings: Settings,
+    /// What is known at each entry, before any threshold.
+    pub evidence: Vec<Evidence>,
+    /// Threshold crossings, in order.
+    pub crossings: Vec<Crossing>,
+    /// Events of all detectors, in the order in which they were raised.
+    pub events: Vec<Event>,
+}
+
+/// Judges a recording. It does not look at the truth.
+///
+/// ```
+/// use centrode_core::detect::judge::{Settings, judge};
+/// use centrode_core::record::Recording;
+/// use centrode_core::scenario::{Plan, Scenario};
+///
+/// let plan = Plan::new(&Scenario::default())?;
+/// let judged = judge(&Recording::simulated(&plan), &Settings::of(&plan));
+/// assert!((judged.detection().expect("contact on disk 2").time - 6.28).abs() < 0.005);
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
+#[must_use]
+pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
+    let mut observer = Observer::new(settings);
+    let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
+    let judged = Judged { settings: settings.clone(), evidence, crossings: Vec::new(), events: Vec::new() };
+    judged.again(recording, settings.thresholds.clone())
+}
+
+impl Judged {
+    /// The same evidence, of `recording`, against other thresholds: nothing is filtered again.
+    #[must_use]
+    pub fn again(mut self, recording: &Recording, thresholds: Thresholds) -> Self {
+        self.settings.thresholds = thresholds;
+        let mut alarms = Alarms::new(&self.settings);
+        for (entry, evidence) in recording.entries.iter().zip(&self.evidence) {
+            alarms.look(entry.time, &entry.configuration, &evidence.judgement);
+        }
+        (self.crossings, self.events) = alarms.finish();
+        self
+    }
+
+    /// The first event of the centrode, with the place that Eq. 24 gives it.
+    #[must_use]
+    pub fn detection(&self) -> Option<Detection> {
+        Detection::first(&self.events)
+    }
+
+    /// The first event of a detector.
+    #[must_use]
+    pub fn first(&self, detector: Method) -> Option<&Event> {
+        self.events.iter().find(|event| event.detector == detector)
+    }
+}

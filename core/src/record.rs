@@ -1,0 +1,151 @@
+//! What an experiment stores: commands, tracker readings and load cells at loop rate; and, when it was simulated, the truth.
+//!
+//! A recording does not know whether a simulation or a rig made it, and what judges it never looks at the truth. What shows it
+//! reads the truth here and builds no plant of its own.
+
+pub mod script;
+
+use crate::model::{Configuration, Vec3, Wrench};
+use crate::plant::{Plant, Shape};
+use crate::scenario::Plan;
+use crate::sensors::cells::SimulatedCells;
+use crate::sensors::tracker::{Reading, SimulatedTracker};
+
+pub use script::Script;
+
+/// What the loop stores at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Entry {
+    /// Time, s.
+    pub time: f64,
+    /// The commanded configuration.
+    pub configuration: Configuration,
+    /// Commanded θ̇L, rad/s.
+    pub theta_l_rate: f64,
+    /// The tracker's reading, as held.
+    pub reading: Reading,
+    /// Load cell readings τ_lc, N. NaN where the statics are not defined.
+    pub tau_lc: Vec3,
+}
+
+/// What was true of the robot at one instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Truth {
+    /// Which of the plan's contacts holds the backbone, counted from 0; none while the robot is free.
+    pub held: Option<usize>,
+    /// The shape of the backbone.
+    pub shape: Shape,
+    /// The wrench on the end disk, in {B}.
+    pub wrench: Wrench,
+    /// Joint forces τ, N. NaN where the statics are not defined.
+    pub tau: Vec3,
+}
+
+impl Truth {
+    /// What a plant does in a commanded configuration at `time` (s).
+    #[must_use]
+    pub fn of(plant: &Plant, configuration: Configuration, time: f64) -> Self {
+        let wrench = plant.wrench(time);
+        Self {
+            held: plant.held(&configuration),
+            shape: plant.shape(configuration),
+            tau: plant.joint_forces(configuration, &wrench),
+            wrench,
+        }
+    }
+}
+
+/// An experiment as it was stored.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Recording {
+    /// The entries, in order of time.
+    pub entries: Vec<Entry>,
+    /// The truth at each entry; none when a rig made the recording.
+    pub truth: Option<Vec<Truth>>,
+}
+
+impl Recording {
+    /// The experiment of a plan, simulated.
+    #[must_use]
+    pub fn simulated(plan: &Plan) -> Self {
+        let mut entries = Vec::with_capacity(plan.samples());
+        let mut truth = Vec::with_capacity(plan.samples());
+        for (entry, true_now) in Recorder::new(plan) {
+            entries.push(entry);
+            truth.push(true_now);
+        }
+        Self { entries, truth: Some(truth) }
+    }
+
+    /// Truth: time of the first entry in contact, s; none when nothing touches or the truth is not known.
+    #[must_use]
+    pub fn contact_time(&self) -> Option<f64> {
+        let truth = self.truth.as_ref()?;
+        let first = truth.iter().position(|truth| truth.held.is_some())?;
+        Some(self.entries[first].time)
+    }
+}
+
+/// A simulated experiment as a stream of what is stored, beside the truth: it keeps nothing.
+#[derive(Debug, Clone)]
+pub struct Recorder<'a> {
+    plan: &'a Plan,
+    plant: Plant<'a>,
+    tracker: SimulatedTracker,
+    cells: SimulatedCells,
+    next: usize,
+}
+
+impl<'a> Recorder<'a> {
+    /// At rest before the first entry.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        Self {
+            plan,
+            plant: Plant::new(plan),
+            tracker: SimulatedTracker::new(plan),
+            cells: SimulatedCells::new(plan),
+            next: 0,
+        }
+    }
+}
+
+impl Iterator for Recorder<'_> {
+    type Item = (Entry, Truth);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.next >= self.plan.samples() {
+            return None;
+        }
+        let time = self.plan.time(self.next);
+        self.next += 1;
+        let (configuration, theta_l_rate) = self.plant.command(time);
+        let truth = Truth::of(&self.plant, configuration, time);
+        let plant = &self.plant;
+        let reading = self.tracker.read(time, |taken| plant.shape(plant.command(taken).0).tip_pose());
+        let tau_lc = self.cells.read(&truth.tau);
+        Some((Entry { time, configuration, theta_l_rate, reading, tau_lc }, truth))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = self.plan.samples() - self.next;
+        (left, Some(left))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::preset::find;
+
+    #[test]
+    fn the_truth_says_when_contact_begins_and_ends() {
+        let plan = |name| Plan::new(&find(name).and_then(|preset| preset.scenario()).expect(name)).expect(name);
+        assert_eq!(Recording::simulated(&plan("free")).contact_time(), None);
+        let held = Recording::simulated(&plan("bench"));
+        assert_eq!(held.contact_time(), Some(5.801));
+        let truth = held.truth.as_ref().expect("simulated");
+        assert!(truth.iter().all(|truth| truth.held.is_some() == matches!(truth.shape, Shape::Held(_))));
+        assert_eq!(Recording { truth: None, ..held }.contact_time(), None);
+    }
+}

@@ -1,0 +1,108 @@
+//! What all repeats of a plan have in common: commands, truth, and where the tip is whenever the tracker looks.
+
+use super::{Entry, Truth};
+use crate::model::{Configuration, Pose, Vec3};
+use crate::plant::Plant;
+use crate::scenario::Plan;
+use crate::sensors::cells::SimulatedCells;
+use crate::sensors::tracker::{Reading, SimulatedTracker};
+
+/// One instant of the loop, before any noise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// Time, s.
+    pub time: f64,
+    /// The commanded configuration.
+    pub configuration: Configuration,
+    /// Commanded θ̇L, rad/s.
+    pub theta_l_rate: f64,
+    /// Joint forces τ, N.
+    pub tau: Vec3,
+    /// Whether the beam holds the backbone.
+    pub held: bool,
+}
+
+/// The experiment of a plan without its noise, made once for all repeats.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Script {
+    steps: Vec<Step>,
+    /// Pose of the end disk at each of the tracker's readings, in order.
+    tips: Vec<Pose>,
+}
+
+impl Script {
+    /// Of a plan; its seed does not matter.
+    #[must_use]
+    pub fn new(plan: &Plan) -> Self {
+        let plant = Plant::new(plan);
+        let mut tracker = SimulatedTracker::new(plan);
+        let mut tips = Vec::new();
+        let step = |k| {
+            let time = plan.time(k);
+            let (configuration, theta_l_rate) = plant.command(time);
+            tracker.read(time, |taken| {
+                let tip = plant.shape(plant.command(taken).0).tip_pose();
+                tips.push(tip);
+                tip
+            });
+            let Truth { held, tau, .. } = Truth::of(&plant, configuration, time);
+            Step { time, configuration, theta_l_rate, tau, held: held.is_some() }
+        };
+        let steps = (0..plan.samples()).map(step).collect();
+        Self { steps, tips }
+    }
+
+    /// The instants of the loop.
+    #[must_use]
+    pub fn steps(&self) -> &[Step] {
+        &self.steps
+    }
+
+    /// Truth: time of the first instant in contact, s.
+    #[must_use]
+    pub fn contact_time(&self) -> Option<f64> {
+        self.steps.iter().find(|step| step.held).map(|step| step.time)
+    }
+
+    /// The tracker's readings in one repeat. `plan` is the script's own but for its seed.
+    pub fn readings(&self, plan: &Plan) -> impl Iterator<Item = Reading> {
+        let mut tracker = SimulatedTracker::new(plan);
+        let mut tips = self.tips.iter();
+        // There are as many tips as the tracker takes readings, for it looks at the clock alone.
+        self.steps.iter().map(move |step| tracker.read(step.time, |_| *tips.next().expect("a tip for each reading")))
+    }
+
+    /// What is stored of one repeat: the same as [`super::Recorder`] gives. `plan` is the script's own but for its seed.
+    pub fn entries(&self, plan: &Plan) -> impl Iterator<Item = Entry> {
+        let mut cells = SimulatedCells::new(plan);
+        self.steps.iter().zip(self.readings(plan)).map(move |(step, reading)| {
+            let Step { time, configuration, theta_l_rate, tau, .. } = *step;
+            Entry { time, configuration, theta_l_rate, reading, tau_lc: cells.read(&tau) }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::record::Recorder;
+    use crate::scenario::preset::PRESETS;
+
+    #[test]
+    fn a_script_gives_what_each_repeat_would_have_stored() {
+        for preset in PRESETS {
+            let plan = Plan::new(&preset.scenario().expect(preset.name)).expect(preset.name);
+            let script = Script::new(&plan);
+            for seed in [plan.scenario().seed, 77] {
+                let plan = plan.with_seed(seed);
+                let same = |a: &Vec3, b: &Vec3| a.iter().zip(b.iter()).all(|(a, b)| a.to_bits() == b.to_bits());
+                for (ours, (entry, truth)) in script.entries(&plan).zip(Recorder::new(&plan)) {
+                    let readings = (ours.reading, ours.time, ours.configuration);
+                    assert_eq!(readings, (entry.reading, entry.time, entry.configuration), "{}", preset.name);
+                    assert!(same(&ours.tau_lc, &entry.tau_lc), "{} at {}", preset.name, truth.tau);
+                }
+                assert_eq!(script.entries(&plan).count(), plan.samples());
+            }
+        }
+    }
+}
