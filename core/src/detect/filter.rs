@@ -19,6 +19,8 @@ pub struct MovingAverage<const D: usize> {
     sum: [f64; D],
     error: [f64; D],
     mean: [f64; D],
+    /// One over the number of vectors in it.
+    share: f64,
 }
 
 impl<const D: usize> MovingAverage<D> {
@@ -26,48 +28,53 @@ impl<const D: usize> MovingAverage<D> {
     #[must_use]
     pub fn new(length: usize) -> Self {
         let length = length.max(1);
-        Self { length, ring: Vec::new(), oldest: 0, sum: [0.0; D], error: [0.0; D], mean: [0.0; D] }
+        Self { length, ring: Vec::new(), oldest: 0, sum: [0.0; D], error: [0.0; D], mean: [0.0; D], share: 1.0 }
     }
 
     /// Takes one vector in and returns the mean and its change since the one before.
     ///
     /// The change is exactly zero when the vector that comes equals the one that goes. The first is zero.
     pub fn push(&mut self, next: &[f64; D]) -> ([f64; D], [f64; D]) {
+        let first = self.ring.is_empty();
         let growing = self.ring.len() < self.length;
         // What a new vector is measured against: while the mean grows, the mean itself.
-        let gone = match (self.ring.first(), growing) {
-            (None, _) => *next,
-            (Some(_), true) => self.mean,
-            (Some(_), false) => self.ring[self.oldest],
-        };
-        if growing {
+        let gone = if growing {
             self.ring.push(*next);
+            self.share = 1.0 / self.ring.len() as f64;
+            if first { *next } else { self.mean }
         } else {
             let oldest = std::mem::replace(&mut self.ring[self.oldest], *next);
             self.oldest = if self.oldest + 1 == self.length { 0 } else { self.oldest + 1 };
-            for (i, x) in oldest.iter().enumerate() {
-                self.add(i, -x);
+            oldest
+        };
+        let (share, mut change) = (self.share, [0.0; D]);
+        if !growing {
+            for i in 0..D {
+                (self.sum[i], self.error[i]) = add(self.sum[i], self.error[i], -gone[i]);
             }
         }
-        let share = 1.0 / self.ring.len() as f64;
-        let mut change = [0.0; D];
-        for (i, x) in next.iter().enumerate() {
-            self.add(i, *x);
-            change[i] = (x - gone[i]) * share;
+        // One plain loop for each step, so that components are worked side by side.
+        for i in 0..D {
+            (self.sum[i], self.error[i]) = add(self.sum[i], self.error[i], next[i]);
+        }
+        for i in 0..D {
+            change[i] = (next[i] - gone[i]) * share;
+        }
+        for i in 0..D {
             // What does not change keeps its bits: a robot at rest has no speed, not one of a rounding error.
-            if change[i] != 0.0 || share == 1.0 {
-                self.mean[i] = (self.sum[i] + self.error[i]) * share;
-            }
+            let mean = (self.sum[i] + self.error[i]) * share;
+            self.mean[i] = if change[i] != 0.0 || share == 1.0 { mean } else { self.mean[i] };
         }
         (self.mean, change)
     }
+}
 
-    fn add(&mut self, i: usize, x: f64) {
-        let sum = self.sum[i] + x;
-        let rounded = sum - self.sum[i];
-        self.error[i] += (self.sum[i] - (sum - rounded)) + (x - rounded);
-        self.sum[i] = sum;
-    }
+/// Adds `x` to a sum that carries its rounding errors in a second number.
+#[inline]
+fn add(sum: f64, error: f64, x: f64) -> (f64, f64) {
+    let total = sum + x;
+    let rounded = total - sum;
+    (total, error + ((sum - (total - rounded)) + (x - rounded)))
 }
 
 /// Position and motion of the end disk as the sensor shows them, in {B}.
