@@ -1,9 +1,9 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
-use centrode::show::track::Trace;
 use centrode::app::stages::viewport::{ViewState, viewport};
 use centrode::app::{layout, theme};
+use centrode::show::track::Trace;
 use centrode_core::run::simulate;
 use centrode_core::scenario::preset;
 use egui_kittest::Harness;

@@ -1,9 +1,9 @@
 //! The live plots and the bending plane, headless: what a pointer or a keyboard does, and what they look like.
 
-use centrode::show::track::Trace;
 use centrode::app::charts::plane::plane;
 use centrode::app::charts::plots::{PlotState, plots};
 use centrode::app::command::Command;
+use centrode::show::track::Trace;
 use centrode_core::run::{Run, simulate};
 use centrode_core::scenario::Threshold;
 use centrode_core::scenario::{Scenario, preset};
@@ -49,14 +49,18 @@ impl Page {
             let width = 0.4 * ui.available_width();
             let height = ui.available_height();
             ui.horizontal(|ui| {
-                ui.allocate_ui(vec2(width, height), |ui| plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out));
+                ui.allocate_ui(vec2(width, height), |ui| {
+                    plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out)
+                });
                 ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
                     plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
                 });
             });
         } else {
             let width = ui.available_width();
-            ui.allocate_ui(vec2(width, 380.0), |ui| plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out));
+            ui.allocate_ui(vec2(width, 380.0), |ui| {
+                plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out)
+            });
             plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
         }
         self.apply(out);

@@ -255,7 +255,7 @@ impl Job for Table2Job {
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.rows.len(), of: self.repeats * PRESETS.len() }
+        Progress { done: self.rows.len() as u64, of: self.repeats as u64 * PRESETS.len() as u64 }
     }
 }
 

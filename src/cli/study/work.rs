@@ -42,11 +42,11 @@ pub fn work(study: Study) -> (Study, bool) {
 }
 
 /// On a terminal only: a program that reads standard error wants none.
-fn bar(of: usize) -> ProgressBar {
+fn bar(of: u64) -> ProgressBar {
     if !io::stderr().is_terminal() {
         return ProgressBar::hidden();
     }
-    let bar = ProgressBar::new(of as u64);
+    let bar = ProgressBar::new(of);
     match ProgressStyle::with_template("{bar:40} {pos} of {len} runs, {eta} left") {
         Ok(style) => bar.with_style(style),
         Err(_) => bar,
