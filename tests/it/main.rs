@@ -7,6 +7,8 @@ mod documented;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
+#[cfg(all(feature = "cli", unix))]
+mod files;
 mod fingerprints;
 mod forces;
 mod golden;
