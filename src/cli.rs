@@ -3,6 +3,8 @@
 //! Exit code 0 for work done, 2 for bad input with one line on standard error, 130 after an interrupt, which leaves no part
 //! of a file behind. A closed pipe ends it quietly.
 
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
+
 mod draw;
 mod figure;
 mod interrupt;
