@@ -1,6 +1,8 @@
 //! Writes pictures of the 3D view as the page shows it, light and dark, desk and phone, into a folder:
 //! `cargo run --example scene_png --features gui-tests -- FOLDER [PRESET TIME [KEY=VALUE …]]`.
 
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it writes a picture")]
+
 use centrode::app::stages::viewport::{ViewState, viewport};
 use centrode::app::{layout, theme};
 use centrode::show::track::Trace;

@@ -1,10 +1,13 @@
 //! The headless command: one file per subcommand.
 //!
-//! Exit code 0 for work done, 2 for bad input with one line on standard error, 130 after an interrupt. A closed pipe ends
-//! it quietly.
+//! Exit code 0 for work done, 2 for bad input with one line on standard error, 130 after an interrupt, which leaves no part
+//! of a file behind. A closed pipe ends it quietly.
+
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
 
 mod draw;
 mod figure;
+mod interrupt;
 mod map;
 mod model;
 mod output;
@@ -131,6 +134,7 @@ pub fn main() -> ExitCode {
         }
         Err(error) => return Failure::Input(one_line(&error.to_string())).report(),
     };
+    interrupt::listen();
     let mut out = io::BufWriter::new(io::stdout().lock());
     let done = match &cli.command {
         Command::Model(args) => args.execute(&mut out),

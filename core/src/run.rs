@@ -7,8 +7,12 @@ use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Set
 use crate::model::Vec3;
 use crate::plant::Shape;
 use crate::record::{Entry, Recorder, Recording, Truth};
+use crate::scenario::text::number;
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use crate::sensors::tracker::Reading;
+
+/// The longest run that [`simulate`] keeps in memory, in samples: below 1 GB. A [`Simulation`] may go on for longer.
+pub const MAX_KEPT: usize = 1_000_000;
 
 /// Everything at one instant of the loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -353,12 +357,30 @@ impl Fingerprint {
     }
 }
 
-/// Runs a scenario.
+/// Runs a scenario and keeps every sample.
 ///
 /// # Errors
-/// When the scenario is impossible: which key, which value, what is allowed.
+/// When the scenario is impossible, or its run is longer than [`MAX_KEPT`]: which key, which value, what is allowed.
 pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
-    Ok(Run::new(Plan::new(scenario)?))
+    Ok(Run::new(kept(Plan::new(scenario)?)?))
+}
+
+/// A plan whose run can be kept in memory.
+///
+/// # Errors
+/// [`ScenarioError::Value`] of `motion.end` when it is longer than [`MAX_KEPT`].
+pub fn kept(plan: Plan) -> Result<Plan, ScenarioError> {
+    if plan.samples() <= MAX_KEPT {
+        return Ok(plan);
+    }
+    Err(ScenarioError::Value {
+        key: "motion.end".into(),
+        value: number(plan.scenario().motion.end),
+        allowed: format!(
+            "at most {MAX_KEPT} samples in a run that is kept in memory; this one has {} (motion.end · loop_rate)",
+            plan.samples()
+        ),
+    })
 }
 
 #[cfg(test)]
@@ -413,5 +435,28 @@ mod tests {
         assert!((centrode.raised - 6.26).abs() < 0.01, "{centrode:?}");
         assert!(run.crossings().len() > 10);
         assert_eq!(run.detection().map(|detection| detection.time), Some(centrode.raised));
+    }
+
+    #[test]
+    fn a_run_too_long_to_keep_is_refused_and_can_be_streamed() {
+        let mut scenario = Scenario::default();
+        scenario.motion.end = 90_000.0;
+        let refusal = simulate(&scenario).expect_err("too long").to_string();
+        assert!(refusal.contains("motion.end = 90000") && refusal.contains("90000001"), "{refusal}");
+        let plan = Plan::new(&scenario).expect("possible");
+        assert_eq!(Simulation::new(&plan).take(3).count(), 3);
+    }
+
+    #[test]
+    fn crossings_that_are_taken_are_kept_no_longer() {
+        let plan = Plan::new(&Scenario::default()).expect("possible");
+        let (mut whole, mut drained) = (Simulation::new(&plan), Simulation::new(&plan));
+        whole.by_ref().for_each(drop);
+        let mut taken = Vec::new();
+        while drained.next().is_some() {
+            taken.extend(drained.take_crossings());
+        }
+        assert!(!taken.is_empty() && drained.crossings().is_empty());
+        assert_eq!(taken, whole.crossings());
     }
 }

@@ -31,9 +31,9 @@ pub trait Job {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progress {
     /// Pieces done.
-    pub done: usize,
+    pub done: u64,
     /// Pieces in all.
-    pub of: usize,
+    pub of: u64,
 }
 
 impl Progress {

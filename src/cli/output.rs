@@ -1,5 +1,6 @@
 //! How the command ends, and how it writes files and JSON.
 
+use super::interrupt::Part;
 use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -84,8 +85,15 @@ fn blame(csv: &csv::Writer<NewFile>, error: csv::Error) -> Failure {
 #[derive(Debug)]
 pub struct NewFile {
     path: PathBuf,
-    part: Option<PathBuf>,
-    writer: BufWriter<File>,
+    writer: BufWriter<Sink>,
+}
+
+/// Where the bytes go.
+#[derive(Debug)]
+enum Sink {
+    Part(Part),
+    /// A device or a pipe cannot be replaced: it is written to as it is.
+    Device(File),
 }
 
 impl NewFile {
@@ -94,30 +102,20 @@ impl NewFile {
         // What a link points to is replaced, not the link.
         let target = fs::canonicalize(path);
         let path = target.as_deref().unwrap_or(path);
-        // A device or a pipe cannot be replaced: it is written to as it is.
-        let special = fs::metadata(path).is_ok_and(|meta| !meta.is_file());
-        let part = (!special).then(|| {
-            let mut name = path.as_os_str().to_owned();
-            name.push(format!(".{}.part", std::process::id()));
-            PathBuf::from(name)
-        });
-        let file = match &part {
-            Some(part) => File::create(part),
-            None => File::options().write(true).open(path),
+        let sink = match fs::metadata(path) {
+            Ok(meta) if !meta.is_file() => File::options().write(true).open(path).map(Sink::Device),
+            _ => Part::beside(path).map(Sink::Part),
         };
-        let file = file.map_err(|error| unwritable(path, &error))?;
-        Ok(Self { path: path.into(), part, writer: BufWriter::new(file) })
+        let sink = sink.map_err(|error| unwritable(path, &error))?;
+        Ok(Self { path: path.into(), writer: BufWriter::new(sink) })
     }
 
     /// Completes the file.
-    pub fn finish(mut self) -> Result<(), Failure> {
-        let done = self.writer.flush().and_then(|()| match &self.part {
-            Some(part) => fs::rename(part, &self.path),
-            None => Ok(()),
+    pub fn finish(self) -> Result<(), Failure> {
+        let done = self.writer.into_inner().map_err(io::IntoInnerError::into_error).and_then(|sink| match sink {
+            Sink::Part(part) => part.complete(&self.path),
+            Sink::Device(_) => Ok(()),
         });
-        if done.is_ok() {
-            self.part = None;
-        }
         done.map_err(|error| unwritable(&self.path, &error))
     }
 
@@ -137,11 +135,18 @@ impl Write for NewFile {
     }
 }
 
-impl Drop for NewFile {
-    fn drop(&mut self) {
-        if let Some(part) = &self.part {
-            // Half a file is worse than none; that it cannot be removed changes nothing.
-            let _ = fs::remove_file(part);
+impl Write for Sink {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Part(part) => part.write(bytes),
+            Self::Device(file) => file.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Part(part) => part.flush(),
+            Self::Device(file) => file.flush(),
         }
     }
 }

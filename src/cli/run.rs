@@ -1,8 +1,11 @@
-//! `centrode run`: simulate one scenario, sample by sample: a long run needs no more memory than a short one.
+//! `centrode run`: simulate one scenario, sample by sample.
+//!
+//! A long run needs no more memory than a short one, except that JSON lists every threshold crossing: 40 bytes each, and at
+//! most [`MAX_CROSSINGS`] of them.
 
 use super::ScenarioArgs;
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
-use centrode_core::detect::{Crossing, Detection, Method};
+use centrode_core::detect::{Crossing, Detection, Event, Method};
 use centrode_core::run::{CHANNELS, Sample, Simulation};
 use centrode_core::scenario::{Plan, Scenario};
 use clap::Args;
@@ -31,6 +34,11 @@ struct Report {
     /// Truth; null when the beam never holds.
     contact: Option<Contact>,
     crossings: Vec<Crossing>,
+    /// What each detector makes of its crossings.
+    events: Vec<Event>,
+    /// Crossings that are not listed.
+    #[serde(skip)]
+    more: u64,
     /// The first crossing of ξ2; null when there is none.
     detection: Option<Found>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
@@ -81,9 +89,19 @@ impl RunArgs {
             write_record(csv, header)?;
         }
         let mut simulation = Simulation::new(&plan);
+        let mut crossings = Crossings::new(if self.json { MAX_CROSSINGS } else { 0 });
         let mut peak = Peaks::default();
         let detection = &scenario.detection;
-        for sample in simulation.by_ref() {
+        while let Some(sample) = simulation.next() {
+            crossings.add(&simulation.take_crossings());
+            if self.json && crossings.more > 0 {
+                let line = format!(
+                    "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {} s there are more: raise \
+                     detection.xi2 or detection.xi1, or leave --json away",
+                    sample.time
+                );
+                return Err(Failure::Input(line));
+            }
             let Sample { time, judgement, .. } = &sample;
             if *time >= detection.armed_from {
                 raise(&mut peak.residual, *time, judgement.residual);
@@ -107,14 +125,38 @@ impl RunArgs {
         let found = simulation
             .detection()
             .map(|detection| Found { delay: contact_time.map(|time| detection.time - time), detection });
-        let crossings = simulation.crossings().to_vec();
-        let report = Report { samples: plan.samples(), contact, crossings, detection: found, peak, scenario };
+        let Crossings { listed, more, .. } = crossings;
+        let samples = plan.samples();
+        let events = simulation.events().to_vec();
+        let report = Report { samples, contact, crossings: listed, events, more, detection: found, peak, scenario };
         if self.json { json(out, &report) } else { Ok(table(out, &report)?) }
     }
 }
 
-/// At most this many crossings are listed in the table; JSON holds them all.
+/// At most this many events are listed in the table; JSON holds them all.
 const LISTED: usize = 12;
+
+/// A run with more crossings than this gives no JSON: 40 MB of them.
+const MAX_CROSSINGS: usize = 1_000_000;
+
+/// The first crossings, and how many more there are.
+struct Crossings {
+    most: usize,
+    listed: Vec<Crossing>,
+    more: u64,
+}
+
+impl Crossings {
+    fn new(most: usize) -> Self {
+        Self { most, listed: Vec::new(), more: 0 }
+    }
+
+    fn add(&mut self, crossings: &[Crossing]) {
+        let (listed, more) = crossings.split_at(crossings.len().min(self.most - self.listed.len()));
+        self.listed.extend_from_slice(listed);
+        self.more += more.len() as u64;
+    }
+}
 
 fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     let (mm, degrees) = (|x: f64| x * 1e3, |x: f64| x.to_degrees());
@@ -148,24 +190,45 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             writeln!(out, "{name:<11} at most {value:.3} {unit}, at {time:.3} s")?;
         }
     }
-    writeln!(out, "\nmethod      time [s]    θL [°]          value      threshold")?;
-    for crossing in report.crossings.iter().take(LISTED) {
-        let Crossing { method, time, theta_l, value, threshold } = crossing;
-        let (name, unit) = match method {
-            Method::Fcd => ("fcd", "mm"),
-            Method::Jfd => ("jfd", "mN·m"),
+    if report.events.is_empty() {
+        return writeln!(out, "\nno threshold was crossed");
+    }
+    writeln!(out, "\ndetector   raised [s]  cleared [s]    θL [°]          value      threshold")?;
+    for event in report.events.iter().take(LISTED) {
+        let Event { detector, raised, cleared, value, threshold, theta_l, .. } = event;
+        let unit = match detector {
+            Method::Fcd => "mm",
+            Method::Jfd => "mN·m",
         };
-        let theta_l = degrees(*theta_l);
+        let cleared = cleared.map_or("never".into(), |time| format!("{time:.3}"));
+        let (name, theta_l) = (detector.key(), degrees(*theta_l));
         writeln!(
             out,
-            "{name:<8} {time:>11.3} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
+            "{name:<8} {raised:>12.3} {cleared:>12} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
             mm(*value),
             mm(*threshold)
         )?;
     }
-    match report.crossings.len() {
-        0 => writeln!(out, "no threshold was crossed"),
-        count if count > LISTED => writeln!(out, "… and {} more (--json lists them all)", count - LISTED),
-        _ => Ok(()),
+    if report.events.len() > LISTED {
+        writeln!(out, "… and {} more events (--json lists them all)", report.events.len() - LISTED)?;
+    }
+    match report.crossings.len() as u64 + report.more {
+        1 => writeln!(out, "a threshold was crossed once"),
+        count => writeln!(out, "thresholds were crossed {count} times (--json lists every crossing)"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_crossings_are_listed_and_the_others_counted() {
+        let at = |time| Crossing { method: Method::Fcd, time, theta_l: 0.0, value: 2.0, threshold: 1.0 };
+        let mut crossings = Crossings::new(3);
+        for some in [&[][..], &[at(1.0), at(2.0)], &[at(3.0), at(4.0)], &[at(5.0)]] {
+            crossings.add(some);
+        }
+        assert_eq!((crossings.listed, crossings.more), (vec![at(1.0), at(2.0), at(3.0)], 2));
     }
 }

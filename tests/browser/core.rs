@@ -28,6 +28,10 @@ fn every_preset_has_the_same_bits_as_natively() {
     }
     let refused = page.eval("centrode.fingerprint('[contact]\\ndisk = 9')");
     assert!(refused.as_str().is_some_and(|message| message.contains("contact.disk = 9")), "{refused}");
+    // Every sample of such a run does not fit into memory.
+    let refused = page.eval("centrode.fingerprint('[motion]\\nend = 90000')");
+    assert!(refused.as_str().is_some_and(|message| message.contains("motion.end = 90000")), "{refused}");
+    assert_eq!(page.problems(), Vec::<String>::new());
 }
 
 #[test]

@@ -16,6 +16,12 @@
 //! with role, name, value and bounds (`?test` only); `page.picture()` gives pixels; `page.eval(script)` runs JavaScript, in which
 //! `centrode` holds the wasm module's exports. Software rendering is slow: wait for a state, never for time alone.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_types,
+    reason = "tests read files, run programs and wait for them"
+)]
+
 mod core;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]

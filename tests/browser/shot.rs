@@ -1,5 +1,7 @@
 //! Writes pictures of the page: desk and phone, light and dark. Run by `cargo xtask shot --out DIR`.
 
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "a tool writes files and waits for a browser")]
+
 #[expect(dead_code, unused_imports, reason = "the tests use the rest")]
 mod harness;
 

@@ -1,5 +1,11 @@
 //! Integration tests: one binary, one module per subject.
 
+#![allow(
+    clippy::disallowed_methods,
+    clippy::disallowed_types,
+    reason = "tests read files, run programs and wait for them"
+)]
+
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(feature = "cli")]
@@ -7,6 +13,8 @@ mod documented;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
+#[cfg(all(feature = "cli", unix))]
+mod files;
 mod fingerprints;
 mod forces;
 mod golden;

@@ -68,7 +68,7 @@ fn one_pass_gives_what_a_run_with_each_threshold_gives() {
         let repeat = 1;
         let firsts = study.run((batch, repeat));
         let levels = study.batches()[batch].levels.clone();
-        let seed = repeat_seed(base.seed, repeat as u64);
+        let seed = repeat_seed(base.seed, repeat);
         for method in Method::ALL {
             let values = method.levels(&levels);
             // The smallest, the largest, and some between.

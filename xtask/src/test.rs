@@ -21,6 +21,10 @@ pub struct Options {
     arguments: Vec<String>,
 }
 
+/// The product with all its features. Not the whole workspace: xtask is asked for by itself, as the alias does, for its
+/// dependencies would be built a second time with the product's choice of features.
+const PRODUCT: [&str; 5] = ["--package", "centrode", "--package", "centrode-core", "--all-features"];
+
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Stage {
     /// The code is formatted
@@ -29,7 +33,7 @@ enum Stage {
     Lint,
     /// No warning from the documentation
     Doc,
-    /// The core alone, and the root package without command and interface
+    /// What neither command nor interface needs compiles without them, and the command without the interface
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
@@ -82,12 +86,15 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Lint => lint(),
         Stage::Doc => doc(),
-        Stage::Pure => run(cargo()
-            .args(["test", "--package", "centrode-core", "--package", "centrode", "--no-default-features", "--"])
-            .args(&options.arguments)),
+        Stage::Pure => {
+            tools::component("clippy", "clippy")?;
+            clippy(&["--package", "centrode", "--lib", "--no-default-features"])?;
+            clippy(&["--package", "centrode", "--lib", "--bins"])
+        }
         Stage::Native => {
             tools::software_gpu()?;
-            run(cargo().args(["test", "--workspace", "--all-features", "--"]).args(&options.arguments))
+            run(cargo().arg("test").args(PRODUCT).arg("--").args(&options.arguments))?;
+            run(cargo().args(["test", "--package", "xtask", "--"]).args(&options.arguments))
         }
         Stage::Page => page(options.dev, dist).map(drop),
         Stage::Browser => {
@@ -95,7 +102,8 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
             // Not at the root, so that an absolute address anywhere in the page shows.
             let page = serve::background(&page(options.dev, dist)?, "/deep/path/")?;
             run(cargo()
-                .args(["test", "--workspace", "--all-features"])
+                .arg("test")
+                .args(PRODUCT)
                 .args(["--test", "browser", "--"])
                 .args(&options.arguments)
                 .env("CENTRODE_PAGE", page)
@@ -116,21 +124,25 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
 fn lint() -> Result<()> {
     tools::component("clippy", "clippy")?;
     tools::wasm_target()?;
-    run(cargo()
-        .args(["clippy", "--workspace", "--all-features", "--all-targets"])
-        .args(["--test", "browser"]) // it is no default target
-        .args(["--", "-D", "warnings"]))?;
-    run(cargo()
-        .args(["clippy", "--package", "centrode", "--lib", "--target", WASM])
-        .args(["--no-default-features", "--features", "app"])
-        .args(["--", "-D", "warnings"]))
+    // The browser tests are no default target.
+    clippy(&[&PRODUCT[..], &["--all-targets", "--test", "browser"]].concat())?;
+    clippy(&["--package", "xtask", "--all-targets"])?;
+    clippy(&["--package", "centrode", "--lib", "--target", WASM, "--no-default-features", "--features", "app"])
+}
+
+fn clippy(what: &[&str]) -> Result<()> {
+    run(cargo().arg("clippy").args(what).args(["--", "-D", "warnings"]))
 }
 
 fn doc() -> Result<()> {
-    run(cargo()
-        .args(["doc", "--workspace", "--all-features", "--no-deps"])
-        .arg("--document-private-items")
-        .env("RUSTDOCFLAGS", "-D warnings"))
+    for what in [&PRODUCT[..], &["--package", "xtask"]] {
+        run(cargo()
+            .arg("doc")
+            .args(what)
+            .args(["--no-deps", "--document-private-items"])
+            .env("RUSTDOCFLAGS", "-D warnings"))?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]

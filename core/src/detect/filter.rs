@@ -49,21 +49,22 @@ impl<const D: usize> MovingAverage<D> {
         };
         let (share, mut change) = (self.share, [0.0; D]);
         if !growing {
-            for i in 0..D {
-                (self.sum[i], self.error[i]) = add(self.sum[i], self.error[i], -gone[i]);
+            for ((sum, error), gone) in self.sum.iter_mut().zip(&mut self.error).zip(&gone) {
+                (*sum, *error) = add(*sum, *error, -gone);
             }
         }
         // One plain loop for each step, so that components are worked side by side.
-        for i in 0..D {
-            (self.sum[i], self.error[i]) = add(self.sum[i], self.error[i], next[i]);
+        for ((sum, error), next) in self.sum.iter_mut().zip(&mut self.error).zip(next) {
+            (*sum, *error) = add(*sum, *error, *next);
         }
-        for i in 0..D {
-            change[i] = (next[i] - gone[i]) * share;
+        for ((change, next), gone) in change.iter_mut().zip(next).zip(&gone) {
+            *change = (next - gone) * share;
         }
-        for i in 0..D {
+        for (i, mean) in self.mean.iter_mut().enumerate() {
             // What does not change keeps its bits: a robot at rest has no speed, not one of a rounding error.
-            let mean = (self.sum[i] + self.error[i]) * share;
-            self.mean[i] = if change[i] != 0.0 || share == 1.0 { mean } else { self.mean[i] };
+            if change[i] != 0.0 || share == 1.0 {
+                *mean = (self.sum[i] + self.error[i]) * share;
+            }
         }
         (self.mean, change)
     }

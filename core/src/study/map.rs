@@ -114,7 +114,7 @@ impl Job for MapJob {
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.row, of: self.map.arc_lengths.len() }
+        Progress { done: self.row as u64, of: self.map.arc_lengths.len() as u64 }
     }
 }
 

@@ -9,6 +9,7 @@ use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
 use crate::detect::{Detection, Settings};
 use crate::record::Script;
+use crate::run::kept;
 use crate::scenario::preset::find;
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use libm::sqrt;
@@ -214,7 +215,7 @@ impl Table2Job {
         let mut plans = Vec::with_capacity(PRESETS.len());
         for (k, name) in PRESETS.into_iter().enumerate() {
             let scenario = Scenario { contact: find(name)?.scenario()?.contact, ..base.clone() };
-            let plan = Plan::new(&scenario)?;
+            let plan = kept(Plan::new(&scenario)?)?;
             let script = Script::new(&plan);
             let truth = Truth {
                 disk: k as u64 + 1,
@@ -255,7 +256,7 @@ impl Job for Table2Job {
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.rows.len(), of: self.repeats * PRESETS.len() }
+        Progress { done: self.rows.len() as u64, of: self.repeats as u64 * PRESETS.len() as u64 }
     }
 }
 

@@ -18,6 +18,7 @@ use super::seed::repeat_seed;
 use super::shared::Kept;
 use super::truth::contact_sample;
 use super::{Job, Progress};
+use crate::run::kept;
 use crate::scenario::text::Draft;
 use crate::scenario::{Place, Threshold};
 use crate::scenario::{Plan, Scenario, ScenarioError};
@@ -28,6 +29,9 @@ use watch::{Firsts, Method, first_alarms};
 
 /// The most repeats of one scenario.
 pub const MAX_REPEATS: usize = 10_000_000;
+
+/// The most thresholds that one study counts, over all its scenarios and methods: up to 1 GB of counts.
+pub const MAX_COUNTS: usize = 20_000_000;
 
 /// What is to be studied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -90,13 +94,15 @@ pub struct Study {
     batches: Vec<Batch>,
     cells: Vec<Cell>,
     shared: Kept,
+    /// Thresholds to count, over all batches and methods.
+    counts: usize,
 }
 
 impl Study {
     /// A study of which nothing is done.
     ///
     /// # Errors
-    /// When a cell's scenario is impossible, or a number of the spec is.
+    /// When a cell's scenario is impossible, a number of the spec is, or there is more to count than [`MAX_COUNTS`].
     pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
         let refusal =
             |key: &str, value: String, allowed: String| Err(ScenarioError::Value { key: key.into(), value, allowed });
@@ -107,7 +113,7 @@ impl Study {
         if !(spec.late >= 0.0 && spec.late.is_finite()) {
             return refusal("late", spec.late.to_string(), "a finite time, 0 s or more".into());
         }
-        let mut study = Self { batches: Vec::new(), cells: Vec::new(), shared: Kept::default(), spec };
+        let mut study = Self { batches: Vec::new(), cells: Vec::new(), counts: 0, shared: Kept::default(), spec };
         for set in study.spec.cells.clone() {
             let mut draft = Draft::from_scenario(&study.spec.scenario);
             set.iter().try_for_each(|text| draft.set(text))?;
@@ -143,7 +149,16 @@ impl Study {
         if let Some(place) = place {
             return Ok(place);
         }
-        let plan = Plan::new(&scenario)?;
+        let count = |levels: &Levels| Method::ALL.iter().map(|method| method.levels(levels).len()).sum::<usize>();
+        self.counts += count(&levels);
+        if self.counts > MAX_COUNTS {
+            return Err(ScenarioError::Value {
+                key: "cells".into(),
+                value: self.spec.cells.len().to_string(),
+                allowed: format!("at most {MAX_COUNTS} thresholds in all cells; compare fewer values or thresholds"),
+            });
+        }
+        let plan = kept(Plan::new(&scenario)?)?;
         let armed = first_sample(&plan, scenario.detection.armed_from);
         let late = libm::floor(self.spec.late * scenario.loop_rate * (1.0 + 4.0 * f64::EPSILON));
         let clock = Clock {
@@ -153,7 +168,7 @@ impl Study {
             contact: contact_sample(&plan).map(|k| k as u32),
             late: late as u32,
         };
-        self.batches.push(Batch { tally: Tally::new(&levels), plan, levels, clock });
+        self.batches.push(Batch { tally: Tally::default(), plan, levels, clock });
         Ok(self.batches.len() - 1)
     }
 
@@ -178,8 +193,9 @@ impl Study {
     /// Which batch and which repeat the `piece`-th piece of work is, of [`Progress::of`]: the batches take turns, so that
     /// whoever stops early has equally many repeats of each.
     #[must_use]
-    pub fn piece(&self, piece: usize) -> (usize, usize) {
-        (piece % self.batches.len(), piece / self.batches.len())
+    pub fn piece(&self, piece: u64) -> (usize, u64) {
+        let batches = self.batches.len() as u64;
+        ((piece % batches) as usize, piece / batches)
     }
 
     /// Makes one repeat of one batch; changes nothing, so that many can be made at once.
@@ -187,9 +203,9 @@ impl Study {
     /// # Panics
     /// When there is no such batch.
     #[must_use]
-    pub fn run(&self, (batch, repeat): (usize, usize)) -> Firsts {
+    pub fn run(&self, (batch, repeat): (usize, u64)) -> Firsts {
         let Batch { plan, levels, .. } = &self.batches[batch];
-        let plan = plan.with_seed(repeat_seed(plan.scenario().seed, repeat as u64));
+        let plan = plan.with_seed(repeat_seed(plan.scenario().seed, repeat));
         first_alarms(&plan, levels, &self.shared.of(&plan))
     }
 
@@ -217,8 +233,9 @@ impl Study {
     /// Takes over the tally of one batch that was counted elsewhere. One that does not fit, or says less, is left.
     pub fn set(&mut self, batch: usize, tally: Tally) {
         let Some(batch) = self.batches.get_mut(batch) else { return };
-        let lengths = |tally: &Tally| tally.counts.each_ref().map(Vec::len);
-        if lengths(&tally) == lengths(&batch.tally) && tally.runs > batch.tally.runs {
+        let fits =
+            Method::ALL.map(|method| method.levels(&batch.levels).len()) == tally.counts.each_ref().map(Vec::len);
+        if fits && tally.runs > batch.tally.runs {
             batch.tally = tally;
         }
     }
@@ -336,13 +353,44 @@ fn first_sample(plan: &Plan, time: f64) -> usize {
 impl Job for Study {
     fn step(&mut self) {
         if let Some(batch) = self.next(|_| true) {
-            let firsts = self.run((batch, self.batches[batch].tally.runs as usize));
+            let firsts = self.run((batch, self.batches[batch].tally.runs));
             self.add(batch, &firsts);
         }
     }
 
     fn progress(&self) -> Progress {
-        let done = self.batches.iter().map(|batch| batch.tally.runs as usize).sum();
-        Progress { done, of: self.batches.len() * self.spec.repeats }
+        let done = self.batches.iter().map(|batch| batch.tally.runs).sum();
+        Progress { done, of: self.batches.len() as u64 * self.spec.repeats as u64 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn spec(cells: u32) -> Spec {
+        let cells = (1..=cells).map(|seed| vec![format!("seed={seed}")]).collect();
+        Spec { scenario: Scenario::default(), repeats: MAX_REPEATS, late: 1.0, cells, xi2: None, xi1: None }
+    }
+
+    #[test]
+    fn what_is_not_begun_has_no_counts() {
+        let mut study = Study::new(spec(50)).expect("possible");
+        assert!(study.batches().iter().all(|batch| batch.tally.counts.iter().all(Vec::is_empty)));
+        assert_eq!(study.point(0, Method::Fcd, 3).false_alarms.rate.of, 0);
+        study.step();
+        let begun = study.batches().iter().filter(|batch| !batch.tally.counts[0].is_empty());
+        assert_eq!(begun.count(), 1);
+        // More pieces than 32 bits count.
+        let of = 2 * 500 * MAX_REPEATS as u64;
+        let many = Study::new(spec(500)).expect("possible");
+        assert_eq!((many.progress().of, many.piece(of - 1)), (of, (999, MAX_REPEATS as u64 - 1)));
+    }
+
+    #[test]
+    fn more_thresholds_than_can_be_counted_are_refused() {
+        let xi2 = Some((0..10_000).map(|k| f64::from(k) * 1e-6).collect());
+        let refusal = Study::new(Spec { xi2, ..spec(400) }).expect_err("too many").to_string();
+        assert!(refusal.contains("cells = 400") && refusal.contains("20000000 thresholds"), "{refusal}");
     }
 }

@@ -143,7 +143,7 @@ impl Job for FigureJob {
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.done, of: self.content.pieces() }
+        Progress { done: self.done as u64, of: self.content.pieces() as u64 }
     }
 }
 

@@ -59,7 +59,7 @@ impl Remote {
     /// Makes one run; returns whether any are left.
     pub fn step(&mut self) -> bool {
         let Some(batch) = self.study.next(|batch| self.batches.contains(&batch)) else { return false };
-        let firsts = self.study.run((batch, self.study.batches()[batch].tally.runs as usize));
+        let firsts = self.study.run((batch, self.study.batches()[batch].tally.runs));
         self.study.add(batch, &firsts);
         if !self.grown.contains(&batch) {
             self.grown.push(batch);

@@ -1,6 +1,5 @@
 //! What repeats of one scenario came to: whole numbers, so that the order in which they are added changes nothing.
 
-use super::levels::Levels;
 use super::rate::{Rate, wilson};
 use super::watch::{Firsts, Method, NEVER};
 use libm::{ceil, sqrt};
@@ -37,25 +36,20 @@ pub struct Count {
 }
 
 /// Counts of all runs with one scenario.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tally {
     /// Runs counted.
     pub runs: u64,
-    /// By method and level.
+    /// By method and level; empty before the first run, so that what is not begun takes no memory.
     pub counts: [Vec<Count>; 4],
 }
 
 impl Tally {
-    /// Nothing counted.
-    #[must_use]
-    pub fn new(levels: &Levels) -> Self {
-        Self { runs: 0, counts: Method::ALL.map(|method| vec![Count::default(); method.levels(levels).len()]) }
-    }
-
     /// Counts one run in.
     pub fn add(&mut self, firsts: &Firsts, clock: &Clock) {
         self.runs += 1;
         for (counts, firsts) in self.counts.iter_mut().zip(firsts) {
+            counts.resize_with(firsts.len(), Count::default);
             for (count, &first) in counts.iter_mut().zip(firsts) {
                 count.add(first, clock);
             }
@@ -65,7 +59,9 @@ impl Tally {
     /// What the runs say about one threshold.
     #[must_use]
     pub fn count(&self, method: Method, level: usize) -> &Count {
-        &self.counts[method as usize][level]
+        static NONE: Count = Count { early: 0, early_samples: 0, late: 0, found: Vec::new() };
+        let counts = &self.counts[method as usize];
+        if counts.is_empty() { &NONE } else { &counts[level] }
     }
 }
 
@@ -206,8 +202,7 @@ mod tests {
     const CLOCK: Clock = Clock { rate: 1000.0, armed: 5000, samples: 10_001, contact: Some(6000), late: 500 };
 
     fn tally(firsts: &[u32]) -> Tally {
-        let levels = Levels { xi2: vec![0.007], xi1: vec![0.03] };
-        let mut tally = Tally::new(&levels);
+        let mut tally = Tally::default();
         firsts.iter().for_each(|&first| tally.add(&[vec![first], vec![NEVER], vec![first], vec![NEVER]], &CLOCK));
         tally
     }
@@ -230,8 +225,7 @@ mod tests {
     #[test]
     fn without_contact_every_alarm_is_false_and_silence_counts() {
         let clock = Clock { contact: None, ..CLOCK };
-        let levels = Levels { xi2: vec![0.007], xi1: vec![0.03] };
-        let mut tally = Tally::new(&levels);
+        let mut tally = Tally::default();
         for first in [6000, 7001, NEVER, NEVER] {
             tally.add(&[vec![first], vec![NEVER], vec![first], vec![NEVER]], &clock);
         }
