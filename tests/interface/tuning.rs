@@ -40,8 +40,8 @@ fn it_says_what_the_thresholds_achieve_and_which_to_take() {
     let mut page = page_of(DESK);
     assert_eq!(app(&page).state().stage, Stage::Tuning);
     finish(&mut page);
-    let now = said(&page, "free runs");
-    assert!(now.contains("of 100 free runs") && now.contains("Contact on disk 2 is found"), "{now}");
+    let now = said(&page, "runs without contact gave");
+    assert!(now.contains("of 100 runs without contact") && now.contains("Contact on disk 2 is detected"), "{now}");
     assert!(!said(&page, "Soonest with at most 5").is_empty());
     assert!(said(&page, "centrode study").contains("--preset bench --repeats 100 --sweep filter.length=50,100"));
     page.get_by_role_and_label(Role::Button, "Take it").click();
@@ -136,8 +136,12 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
     let scenario = app(&page).state().scenario.clone();
     assert_eq!(scenario.filter.length, length, "joint forces are not filtered");
     assert_ne!(scenario.detection.xi1, Threshold::On(0.03));
-    for (option, part) in [("Forces", "mN·m"), ("Both", "free runs"), ("Either", "free runs"), ("1 %", "At least 381")]
-    {
+    for (option, part) in [
+        ("Forces", "mN·m"),
+        ("Both", "runs without contact gave"),
+        ("Either", "runs without contact gave"),
+        ("1 %", "at least 381 runs"),
+    ] {
         page.get_by_role_and_label(Role::RadioButton, option).click();
         page.run_steps(2);
         assert!(!said(&page, part).is_empty(), "{option}: {part}");
@@ -169,7 +173,7 @@ fn without_a_contact_there_is_nothing_to_advise() {
     let mut page = page_of(DESK);
     slide(&mut page, "Contact disk", 0.0);
     finish(&mut page);
-    assert!(!said(&page, "There is no contact to find").is_empty());
-    assert!(!said(&page, "No contact, so no delay to shorten").is_empty());
+    assert!(!said(&page, "There is no contact to detect").is_empty());
+    assert!(!said(&page, "Set a contact to be advised").is_empty());
     assert!(page.query_by_role_and_label(Role::Button, "Take it").is_none());
 }
