@@ -126,7 +126,7 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
             return (text, Some((*level, length)));
         }
         Verdict::TooFewRuns { needed } => format!(
-            "No threshold can be shown to give at most {wish} % false alarms: that takes at least {needed} runs, even without a single one."
+            "No threshold can be shown to give at most {wish} % false alarms: that takes at least {needed} runs, even when none of them gives one."
         ),
         Verdict::NoneQuiet { lowest } => {
             format!("No threshold gives at most {wish} % false alarms: the best may give up to {} %.", percent(*lowest))
