@@ -44,13 +44,13 @@ enum Command {
     Run(run::RunArgs),
     /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
     Table2(table2::Table2Args),
-    /// Map what can be seen at all: the largest threshold and cell error for each place and bend at contact.
+    /// Map which contacts are detectable: the largest threshold and cell error for each place and bend at contact.
     Map(map::MapArgs),
     /// Tune thresholds: false alarms, delay and the best filter, from repeats with and without contact.
     Study(study::StudyArgs),
     /// List the presets.
     Presets,
-    /// Print the default scenario as TOML, every key commented.
+    /// Print the default scenario as TOML, with a comment on every key.
     Scenario,
 }
 
@@ -68,7 +68,7 @@ struct ScenarioArgs {
     sets: Vec<String>,
 }
 
-/// A scenario file larger than this is none.
+/// No scenario file is larger than this, bytes.
 const MAX_FILE: u64 = 1 << 20;
 
 impl ScenarioArgs {
@@ -127,8 +127,7 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "what to do is missing: model, run, figure, table2, map, study, presets or scenario (see --help)"
-                    .into(),
+                "name a subcommand: model, run, figure, table2, map, study, presets or scenario (see --help)".into(),
             )
             .report();
         }

@@ -1,4 +1,4 @@
-//! The core of Centrode: a continuum robot, what sensors see of it, and how a contact is known from that.
+//! The core of Centrode: a continuum robot, what sensors see of it, and how a contact is detected from that.
 //!
 //! Pure: no files, no clock, no threads, no global random numbers; the same inputs give the same bits on every machine.
 //!
@@ -21,7 +21,7 @@
 //! | location of the contact | 24 | [`model::locate`] |
 //! | Figures 3, 4, 6, 7, 8 | | [`study::figure`] |
 //! | Table II | | [`study::table2`] |
-//! | what can be seen at all | 16, 19 | [`study::map`] |
+//! | which contacts are detectable | 16, 19 | [`study::map`] |
 //! | false alarms, delay, which threshold to take | | [`study::tuning`] |
 //!
 //! Read [`model`], then [`scenario`], [`plant`], [`sensors`], [`detect`], then [`study`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and

@@ -1,4 +1,4 @@
-//! `centrode map`: what can be seen at all, over the place of the contact and the bend at contact.
+//! `centrode map`: which contacts are detectable, over the place of the contact and the bend at contact.
 
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
@@ -153,7 +153,7 @@ fn text(out: &mut impl Write, report: &Report<'_>) -> io::Result<()> {
     {
         let Sight { setting, judged, found, lowest } = sight;
         let Some(setting) = setting else {
-            writeln!(out, "{name:<11} {symbol} is off: nothing is found")?;
+            writeln!(out, "{name:<11} {symbol} is off, so nothing is detected")?;
             continue;
         };
         write!(out, "{name:<11} {symbol} = {:.2} {unit} finds {found} of {judged} contacts judged", setting * scale)?;

@@ -179,8 +179,7 @@ impl StudyArgs {
                 ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => &mut xi1,
                 ("detection.xi1" | "detection.xi1_factor", _) => {
                     let other = if rule == Xi1Rule::Constant { "detection.xi1" } else { "detection.xi1_factor" };
-                    let line =
-                        format!("--sweep {text}: it is not looked at with this detection.xi1_rule; sweep {other}");
+                    let line = format!("--sweep {text}: this detection.xi1_rule does not use it; sweep {other}");
                     return Err(Failure::Input(line));
                 }
                 _ => {

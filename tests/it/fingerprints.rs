@@ -1,6 +1,6 @@
 //! No number that the program computes has moved since its fingerprint was stored.
 //!
-//! Where one is meant to: `UPDATE_SNAPSHOTS=1 cargo test --test it fingerprints`, and a line in the changelog that says why.
+//! Where one is meant to: `cargo xtask renew fingerprints`, and a line in the changelog that says why.
 
 use centrode_core::fingerprints::{Fingerprints, fingerprints};
 
@@ -8,7 +8,7 @@ use centrode_core::fingerprints::{Fingerprints, fingerprints};
 fn everything_computed_has_the_stored_fingerprint() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/fingerprints.json");
     let ours = fingerprints().expect("presets are valid");
-    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+    if std::env::var_os("UPDATE_FINGERPRINTS").is_some() {
         let text = serde_json::to_string_pretty(&ours).expect("JSON");
         std::fs::write(path, text + "\n").expect("written");
     }

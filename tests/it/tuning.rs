@@ -1,7 +1,7 @@
 //! The study of thresholds, held against single runs and against what is known beforehand.
 
 use centrode_core::detect::Method as Lamp;
-use centrode_core::run::simulate;
+use centrode_core::run::{Run, simulate};
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{Place, Threshold, Xi1Rule};
@@ -25,27 +25,40 @@ fn study(scenario: &Scenario, repeats: usize, cells: &[&[&str]]) -> Study {
     Study::new(spec).expect("a study")
 }
 
-/// Whether each lamp is lit, sample by sample, from the crossings and values of a run with these thresholds.
+/// The sample of a run's first alarm, from what the run itself reports: for one method or either of them its crossings, for
+/// both the samples at which both values lie above their thresholds.
 fn first_alarm(scenario: &Scenario, method: Method) -> u32 {
     let run = simulate(scenario).expect("valid");
+    let sample = |time: f64| run.samples().position(|sample| sample.time == time).expect("a sample") as u32;
+    let crossed = |lamp: Lamp| {
+        run.crossings().iter().find(|crossing| crossing.method == lamp).map_or(NEVER, |crossing| sample(crossing.time))
+    };
+    match method {
+        Method::Fcd => crossed(Lamp::Fcd),
+        Method::Jfd => crossed(Lamp::Jfd),
+        Method::Or => crossed(Lamp::Fcd).min(crossed(Lamp::Jfd)),
+        Method::And => both(scenario, &run),
+    }
+}
+
+/// The first sample at which both alarms are on. An alarm stays as it was while its value is undefined, that of the
+/// centrode also while the tip hardly turns.
+fn both(scenario: &Scenario, run: &Run) -> u32 {
     let detection = &scenario.detection;
-    let mut lit = [false; 2];
-    for (k, sample) in run.samples().enumerate() {
-        let judgement = &sample.judgement;
-        let looked = Lamp::ALL.map(|lamp| lamp.statistic(judgement, sample.time, detection));
-        let thresholds = [detection.xi2.value(), detection.xi1_at(judgement.shape_bound)];
-        for which in 0..2 {
-            if let Some(above) = thresholds[which].and_then(|threshold| looked[which].above(threshold)) {
-                lit[which] = above;
-            }
-        }
-        let alarm = match method {
-            Method::Fcd => lit[0],
-            Method::Jfd => lit[1],
-            Method::Or => lit[0] || lit[1],
-            Method::And => lit[0] && lit[1],
+    let (mut centrode, mut forces) = (false, false);
+    for (k, sample) in run.samples().enumerate().filter(|(_, sample)| sample.time >= detection.armed_from) {
+        let judged = &sample.judgement;
+        let xi1 = match detection.xi1_rule {
+            Xi1Rule::Constant => detection.xi1.value(),
+            Xi1Rule::Bound => detection.xi1.value().map(|_| detection.xi1_factor * judged.shape_bound),
         };
-        if alarm {
+        if judged.deviation.is_finite() && judged.speed > detection.min_speed {
+            centrode = detection.xi2.value().is_some_and(|xi2| judged.deviation > xi2);
+        }
+        if judged.residual.is_finite() {
+            forces = xi1.is_some_and(|xi1| judged.residual > xi1);
+        }
+        if centrode && forces {
             return k as u32;
         }
     }

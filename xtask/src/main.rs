@@ -5,6 +5,7 @@
 mod build;
 #[cfg(test)]
 mod light;
+mod renew;
 mod run;
 mod serve;
 mod shot;
@@ -47,6 +48,11 @@ enum Command {
     },
     /// Run the tests: all of them, or the stages named
     Test(test::Options),
+    /// Replace what tests compare with by what they find now
+    Renew {
+        /// What to replace
+        stored: renew::Stored,
+    },
     /// Check the rules of the house: who may import whom, and more
     Tidy,
     /// Write pictures of the page
@@ -69,6 +75,7 @@ fn obey(command: Command) -> Result<()> {
         Command::Build { dev } => build::build(dev).map(drop),
         Command::Serve { port, dev, dist } => serve::command(port, dev, dist),
         Command::Test(options) => test::command(&options),
+        Command::Renew { stored } => renew::command(stored),
         Command::Tidy => tidy::command(),
         Command::Shot(options) => shot::command(&options),
     }

@@ -23,8 +23,12 @@ pub fn show_place(scenario: &Scenario) -> Option<(String, &'static str)> {
 /// Reads where the contact is: none, a disk, or an arc length.
 pub fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
     let text = text.trim();
-    let refused =
-        || Err(format!("“{}” is no place: type none, a disk's number, or an arc length such as 18 mm", shorten(text)));
+    let refused = || {
+        Err(format!(
+            "there is no place called “{}”: type none, a disk's number, or an arc length such as 18 mm",
+            shorten(text)
+        ))
+    };
     if matches!(text.to_lowercase().as_str(), "none" | "no" | "off" | "free") {
         scenario.contact.place = Place::Nowhere;
         return Some(Ok(()));

@@ -138,7 +138,7 @@ const SENSORS: &[Control] = &[
         Whole,
         |_| (0.0, 99.0),
         field!(whole seed),
-        "Another number, another course of the noise; the same number, the same run.",
+        "Each number gives different noise; the same number gives the same run again.",
     ),
 ];
 

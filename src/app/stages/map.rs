@@ -1,4 +1,4 @@
-//! What can be seen at all: two maps over bend and place of the contact.
+//! Which contacts are detectable: two maps over bend and place of the contact.
 
 use crate::app::charts::axes::{Chart, NAME, Side};
 use crate::app::charts::notation::{self, job, number};
@@ -40,7 +40,7 @@ struct Kind {
 
 const KINDS: [Kind; 2] = [
     Kind {
-        title: "Largest ξ_2 that finds the contact",
+        title: "Largest ξ_2 that detects the contact",
         short: "largest ξ2",
         unit: "mm",
         scale: 1e3,
@@ -75,8 +75,8 @@ pub fn map(
     let mut words = job(&summary(shown, inputs), 12.5, theme.ink);
     words.wrap.max_width = rect.width();
     let mut hint = job(
-        "Without noise. A contact below the line is missed; a click, or a drag, puts the contact there. The second map asks that Θ \
-         exceeds ε_c whatever error within ±ε_τ the cells share; beyond 50 % it has one colour.",
+        "Computed without noise. Contacts below the line are missed. Click or drag to put the contact there. The second map shows the \
+         largest load cell error ε_τ with which Θ still exceeds ε_c, whatever error within ±ε_τ the cells share; above 50 % it has one colour.",
         11.5,
         theme.dim,
     );

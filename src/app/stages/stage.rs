@@ -22,9 +22,9 @@ pub enum Stage {
     Figure8,
     /// Table II.
     Table2,
-    /// What can be seen at all.
+    /// Which contacts are detectable.
     Map,
-    /// What every threshold and filter would cost.
+    /// How soon and how reliably each threshold and filter detects.
     Tuning,
 }
 
@@ -77,7 +77,9 @@ impl Stage {
         match (self, self.figure()) {
             (_, Some(number)) => number.title(),
             (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
-            (Self::Map, _) => "What can be seen at all: the thresholds that find a contact, by place and bend",
+            (Self::Map, _) => {
+                "Which contacts are detectable: the largest thresholds that detect them, by place and bend"
+            }
             (Self::Tuning, _) => "Thresholds and filters: false alarms against delay, from repeated runs",
             _ => "The robot as it bends, and its centrodes in the bending plane",
         }

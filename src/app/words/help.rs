@@ -12,37 +12,40 @@ use crate::app::widgets::text::rich;
 pub const PARAGRAPHS: &[(&str, &str)] = &[
     (
         "What the fixed centrode is",
-        "At every instant the tip of a moving robot turns about some axis in space. The point of that axis nearest the base \
-         is its centrode. While the robot bends freely, a model of its shape tells where the centrode must be, and a tracker on the tip tells where it is.",
+        "At every instant the tip of a moving robot turns about an axis in space. The centrode is the point of that axis nearest to the base. \
+         While the robot bends freely, a model of its shape predicts the centrode, and a tracker on the tip measures it.",
     ),
     (
         "What happens on contact",
-        "A beam stops one point of the backbone. What lies below keeps the shape it had; only the part above goes on bending, \
-         so the tip turns about another axis, and the two centrodes part by about half the distance from the base to the beam. When they are farther apart than ξ2, contact is detected, \
-         and the place whose constrained model explains the sensor best is the estimate.",
+        "A beam stops one point of the backbone. The part below it keeps its shape and only the part above goes on bending, so the tip turns about another axis, \
+         and the two centrodes move apart by about half the distance from the base to the beam. When they are farther apart than the threshold ξ2, contact is detected. \
+         The estimate is the place of contact whose model explains the measured centrode best.",
     ),
     (
         "What the views show",
-        "Blue triangles are the model's centrode without contact, orange circles the model with it, green dots what the sensor says, and vermilion is the detection with its estimate. \
-         The 3D view and the bending plane show them with the robot in steel and the beam in stone.",
+        "Blue triangles mark the model's centrode without contact, orange circles the model's centrode with contact, and green dots the centrode that the tracker measures. \
+         The detection and its estimate are vermilion. The 3D view and the bending plane use the same colours; the robot is steel grey, the beam stone.",
     ),
     (
         "What the plots show",
-        "Above, the distance between model and sensor with its threshold ξ2; below it the joint force deviation Θ with ξ1, a constant or a multiple of the bound ε_c that load cell errors alone can reach; then the bend. \
-         Thresholds can be dragged. Before arming no alarm is raised. A long filter is calm but late, a short one early but restless: try N.",
+        "The first plot shows the distance between the model's centrode and the measured one, with its threshold ξ2. The second shows the joint force deviation Θ with its threshold ξ1, \
+         which is a constant or a multiple of ε_c, the deviation that load cell errors alone can cause. The third shows the bend. You can drag the thresholds. \
+         No alarm is raised before the arming time. A long filter gives few false alarms but reacts late; a short one reacts early but gives more of them: try N.",
     ),
     (
         "The paper on the page",
-        "The menu beside the presets puts a figure of the paper, its Table II, or the map on the stage, worked out anew as controls move. Each says that it is simulated here; only the \
-         columns headed as the paper's are its measurements. The map shows, for each place and bend at contact, the largest thresholds that still find it; a click puts the contact there.",
+        "The page also shows figures of the paper, its Table II and a map, and computes them anew as you move the controls. All of it is simulated here and says so; only the \
+         columns headed as the paper's hold its measurements. The map shows which contacts are detectable: for each place and bend at contact, the largest thresholds that still detect it. \
+         Click on it to put the contact there.",
     ),
     (
         "Tuning",
-        "The last of that menu repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show what an early alarm costs in false ones,          their bands what so few runs leave open. A dot is what is set, a ring what is advised; a click or a drag on any picture takes its threshold, and the plots below follow.",
+        "The tuning view repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show how many false alarms an earlier detection costs; \
+         their bands show how uncertain that is after so few runs. A dot marks what is set, a ring what is advised. Click or drag on a picture to take its threshold; the plots below follow.",
     ),
     (
         "How to try things",
-        "Drag a slider or type a value with or without its unit; the whole experiment is computed anew at once. A notch under a slider marks the preset, and the round arrow goes back to it.",
+        "Drag a slider, or type a value with or without its unit; the whole experiment is computed anew at once. The notch under a slider marks the preset's value, and the round arrow goes back to it.",
     ),
 ];
 

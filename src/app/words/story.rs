@@ -74,7 +74,7 @@ fn centrode(run: &Run) -> String {
         (None, None) => {
             let beam = run.plan.contact().is_some();
             let free = if beam { "The motion never reaches the beam" } else { "Nothing touches the robot" };
-            if xi2.is_some() { format!("{free}, and nothing was noticed.") } else { format!("{free}; {off}") }
+            if xi2.is_some() { format!("{free}, and no alarm was raised.") } else { format!("{free}; {off}") }
         }
         (None, Some(alarm)) => format!("{}: nothing touches the robot.", false_alarm(run, alarm.time)),
         (Some(contact), None) => {
@@ -92,7 +92,7 @@ fn centrode(run: &Run) -> String {
         ),
         (Some(contact), Some(alarm)) => {
             let truth = run.plan.contact().map_or(f64::NAN, |planned| planned.arc_length);
-            let opened = if run.sample_at(alarm.time).in_contact { "" } else { ", after it had opened again" };
+            let opened = if run.sample_at(alarm.time).in_contact { "" } else { ", after the contact had ended" };
             let ending = if ended(run, alarm.time) { format!(", {ENDED}") } else { String::new() };
             format!(
                 "{} was noticed at {} s, {} later{opened}{ending}; the estimate is {} mm, the truth {} mm.",
@@ -111,7 +111,7 @@ fn false_alarm(run: &Run, time: f64) -> String {
     format!("False alarm at {} s{ending}", number(time, 3))
 }
 
-const ENDED: &str = "as the motion ended, where noise rules";
+const ENDED: &str = "as the motion came to rest, where noise dominates";
 
 /// Whether the sensor turned so slowly at a time (s), late in the motion, that its centrode was mostly noise.
 fn ended(run: &Run, time: f64) -> bool {
@@ -140,7 +140,7 @@ fn joint_forces(run: &Run) -> String {
     }
     match (joint_alarm(run), run.contact_time()) {
         (None, _) if run.samples().any(|sample| sample.in_contact && sample.judgement.residual.is_nan()) => {
-            "Joint forces are not defined while the beam holds so near the tip.".into()
+            "Joint forces are not defined while the beam holds the robot so near its tip.".into()
         }
         (None, _) => "Joint forces raised no alarm.".into(),
         (Some(alarm), Some(contact)) if alarm.time >= contact => {
@@ -245,7 +245,7 @@ mod tests {
             (
                 "free",
                 (|s| s.detection.min_speed = 1.0) as fn(&mut Scenario),
-                "Nothing touches the robot, and nothing was noticed.",
+                "Nothing touches the robot, and no alarm was raised.",
             ),
             ("static-resolution", |_| {}, "False alarm at "),
             (
@@ -260,7 +260,7 @@ mod tests {
             (
                 "paper",
                 |s| s.contact.place = Place::ArcLength(0.03),
-                "Joint forces are not defined while the beam holds so near the tip.",
+                "Joint forces are not defined while the beam holds the robot so near its tip.",
             ),
             (
                 "free",
@@ -271,7 +271,7 @@ mod tests {
                     s.filter.length = 50;
                     s.detection.min_speed = 0.1;
                 },
-                " s as the motion ended, where noise rules: nothing touches",
+                " s as the motion came to rest, where noise dominates: nothing touches",
             ),
             ("static-resolution", |s| s.contact = Scenario::default().contact, " before the contact on disk 2."),
             ("mid-gap", |_| {}, "Contact at 18.0 mm at "),

@@ -1,4 +1,4 @@
-//! Draws the map of what can be seen: two panels with their colour bars, level lines and the contact.
+//! Draws the map of detectable contacts: two panels with their colour bars, level lines and the contact.
 
 use super::canvas::{Align, Canvas, Look, Paper, Point, width};
 use super::ticks::ticks;
@@ -70,7 +70,7 @@ impl super::Drawing for Drawing<'_> {
         ];
         canvas.rectangle([0.0, 0.0, SIZE[0], SIZE[1]], Color::WHITE);
         let bold = Look { bold: true, upright: false };
-        canvas.text("What can be seen at all", [30.0, 38.0], 20.0, palette.ink, Align::Left, bold);
+        canvas.text("Which contacts are detectable", [30.0, 38.0], 20.0, palette.ink, Align::Left, bold);
         for (panel, [left, right]) in panels.iter().zip(PANELS) {
             self.panel(canvas, panel, left, right, &palette);
         }

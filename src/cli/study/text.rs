@@ -55,7 +55,10 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     }
     match super::is_tuned(study) {
         true => writeln!(out, "\nadvice      {}", advice(study, wish, verdict)),
-        false => writeln!(out, "\nadvice      in each cell its own: the sweeps change what is to be found"),
+        false => writeln!(
+            out,
+            "\nadvice      one for each cell: the sweeps change more than filter and detection, so cells cannot be compared"
+        ),
     }
 }
 
@@ -138,7 +141,7 @@ fn advice(study: &Study, wish: &Wish, verdict: &Verdict) -> String {
             let others = study.cells()[*cell].set.iter().filter(|set| !set.starts_with("filter.length="));
             let others: String = others.map(|set| format!(", {set}")).collect();
             format!(
-                "{} with N = {}{}: soonest with {most}, {} s after contact (median); {} runs without contact alarm",
+                "{} with N = {}{}: soonest with {most}, {} s after contact (median); {} runs without contact give a false alarm",
                 threshold(study, *cell, wish.method, *level),
                 study.cells()[*cell].scenario.filter.length,
                 others,
@@ -147,15 +150,17 @@ fn advice(study: &Study, wish: &Wish, verdict: &Verdict) -> String {
             )
         }
         Verdict::TooFewRuns { needed } => {
-            format!("none reaches this: with so few runs not even silence shows {most}; --repeats {needed} could")
+            format!(
+                "no threshold can be shown to give {most}: that takes at least --repeats {needed}, even when no run gives one"
+            )
         }
         Verdict::NoneQuiet { lowest } => {
-            format!("none reaches this: {most} are asked for, the quietest threshold may have {:.1} %", lowest * 100.0)
+            format!("no threshold gives {most}: the best may give up to {:.1} %", lowest * 100.0)
         }
         Verdict::NoneFinds { best } => format!(
-            "none reaches this: with {most}, no threshold finds half of the contacts in time; the best finds {:.1} %",
+            "no threshold with {most} detects half of the contacts in time; the best detects {:.1} %",
             best * 100.0
         ),
-        Verdict::NoContact => "none: without a contact there is nothing to find".into(),
+        Verdict::NoContact => "none: there is no contact to detect".into(),
     }
 }

@@ -66,7 +66,7 @@ fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Co
     let painter = ui.painter().clone();
     let size = chart.data.size();
     let rows = if kind.share { shares(size.y, 15.0) } else { chart.y.ticks(28.0, Steps::Decimal) };
-    chart.frame_with(&painter, theme, ["Free runs that alarm (%)", kind.name], [shares(size.x, 26.0), rows]);
+    chart.frame_with(&painter, theme, ["Runs without contact that alarm (%)", kind.name], [shares(size.x, 26.0), rows]);
     let inside = painter.with_clip_rect(chart.data.expand(8.0).intersect(painter.clip_rect()));
     let wish = chart.x.at(spread(view.tuning.wish));
     let line = [pos2(wish, chart.data.top()), pos2(wish, chart.data.bottom())];

@@ -32,7 +32,7 @@ pub fn histogram(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command
         painter.vline(at, chart.data.y_range(), Stroke::new(1.0, theme.faint.gamma_multiply(0.7)));
         painter.text(pos2(at, chart.data.bottom() + 4.0), Align2::CENTER_TOP, tick.text, font.clone(), theme.dim);
     }
-    let name = painter.layout_job(job("Delay after touch (s)", 12.0, theme.ink));
+    let name = painter.layout_job(job("Delay after contact (s)", 12.0, theme.ink));
     painter.galley(pos2(chart.data.center().x - 0.5 * name.size().x, chart.data.bottom() + 18.0), name, theme.ink);
     let (Some(level), false) = (level, rows.is_empty()) else {
         let said = if rows.is_empty() { "no contact" } else { "switched off" };
@@ -89,7 +89,7 @@ fn one(painter: &Painter, row: Rect, view: &View<'_>, (name, cell): (&str, usize
     let Some(seen) = seen.filter(|seen| seen.early.of > 0) else { return };
     let mut lines = vec![format!("found {} of {}", seen.detected.count, seen.detected.of)];
     if seen.early.count > 0 {
-        lines.push(format!("{} before touch", seen.early.count));
+        lines.push(format!("{} before contact", seen.early.count));
     }
     if !seen.median.is_nan() {
         lines.push(format!("median {} s", number(seen.median, 2)));

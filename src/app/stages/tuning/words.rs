@@ -37,25 +37,24 @@ fn place(view: &View<'_>) -> String {
 pub fn now(view: &View<'_>) -> String {
     let named = Named::of(view.tuning.method, view.study);
     let Some(point) = view.own() else {
-        return format!("{} is off: nothing is found.", named.symbol);
+        return format!("{} is off, so nothing is detected.", named.symbol);
     };
     let setting = setting(&named, point.threshold);
     let alarms = &point.false_alarms.rate;
     if alarms.of == 0 {
-        return "The first runs are being made …".into();
+        return "Making the first runs …".into();
     }
     let mut text = format!(
-        "Now, {setting}, N = {}: of {} free runs {} alarm{} ({}).",
+        "Now, {setting}, N = {}: {} of {} runs without contact gave a false alarm ({}).",
         view.study.cells()[0].scenario.filter.length,
-        alarms.of,
         if alarms.count == 0 { "none".into() } else { alarms.count.to_string() },
-        if alarms.count == 1 { "s" } else { "" },
+        alarms.of,
         interval(alarms),
     );
     match (point.detection, view.study.contact_time(0)) {
         (Some(seen), Some(_)) => text += &found(&seen, &place(view)),
-        (Some(_), None) => text += " The beam is never touched.",
-        (None, _) => text += " There is no contact to find.",
+        (Some(_), None) => text += " The robot never reaches the beam.",
+        (None, _) => text += " There is no contact to detect.",
     }
     text
 }
@@ -66,17 +65,17 @@ fn found(seen: &Detection, place: &str) -> String {
         return String::new();
     }
     if of == 0 {
-        return " Every run alarms before touch.".into();
+        return " Every run gave an alarm before the contact.".into();
     }
     let mut text = match (count, seen.median.is_nan()) {
-        (0, _) => format!(" Contact {place} is never found in time, within {} s.", LATE),
+        (0, _) => format!(" Contact {place} is never detected within {} s.", LATE),
         (_, true) => format!(
-            " Contact {place} is found in {count} of {of} only, {} s after touch on average.",
+            " Contact {place} is detected in only {count} of {of} runs, after {} s on average.",
             number(seen.mean, 2)
         ),
-        (_, false) if count == of => format!(" Contact {place} is found {} s after touch", number(seen.median, 2)),
+        (_, false) if count == of => format!(" Contact {place} is detected after {} s", number(seen.median, 2)),
         (_, false) => {
-            format!(" Contact {place} is found in {count} of {of}, {} s after touch", number(seen.median, 2))
+            format!(" Contact {place} is detected in {count} of {of} runs, after {} s", number(seen.median, 2))
         }
     };
     if !seen.median.is_nan() {
@@ -87,7 +86,8 @@ fn found(seen: &Detection, place: &str) -> String {
         text += ").";
     }
     if seen.early.count > 0 {
-        text += &format!(" {} alarmed before touch.", seen.early.count);
+        let runs = if seen.early.count == 1 { "run" } else { "runs" };
+        text += &format!(" {} {runs} gave an alarm before the contact.", seen.early.count);
     }
     text
 }
@@ -116,7 +116,7 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
             let filter = if view.tuning.method == Method::Jfd { String::new() } else { format!(", N = {length}") };
             let text = format!(
-                "Soonest with at most {wish} % false alarms: {}{filter} finds it {} s after touch, with {} of {} free runs alarming ({}).",
+                "Soonest with at most {wish} % false alarms: {}{filter} detects it after {} s, and {} of {} runs without contact gave a false alarm ({}).",
                 setting(&named, point.threshold),
                 number(delay, 2),
                 point.false_alarms.rate.count,
@@ -126,16 +126,16 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
             return (text, Some((*level, length)));
         }
         Verdict::TooFewRuns { needed } => format!(
-            "None reaches {wish} %: with so few runs not even silence would show it. At least {needed} are needed."
+            "No threshold can be shown to give at most {wish} % false alarms: that takes at least {needed} runs, even when none of them gives one."
         ),
         Verdict::NoneQuiet { lowest } => {
-            format!("None reaches {wish} %: the quietest threshold leaves up to {} % false alarms.", percent(*lowest))
+            format!("No threshold gives at most {wish} % false alarms: the best may give up to {} %.", percent(*lowest))
         }
         Verdict::NoneFinds { best } => format!(
-            "None reaches {wish} % and finds half of the contacts in time; of those so quiet the best finds {} %.",
+            "No threshold with at most {wish} % false alarms detects half of the contacts in time; the best detects {} %.",
             percent(*best)
         ),
-        Verdict::NoContact => "No contact, so no delay to shorten: choose one to be advised.".into(),
+        Verdict::NoContact => "Set a contact to be advised.".into(),
     };
     (text, None)
 }

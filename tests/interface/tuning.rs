@@ -1,74 +1,34 @@
 //! The tuning view, headless: what it says, what a drag does, and how it looks.
 
+use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, slide, texts};
 use centrode::app::stages::stage::Stage;
-use centrode::app::{App, Host};
 use centrode_core::scenario::Threshold;
 use centrode_core::study::tuning::watch::Method;
 use egui::accesskit::Role;
-use egui::{Event, TouchDeviceId, TouchId, TouchPhase, Vec2, pos2, vec2};
-use egui_kittest::Harness;
-use egui_kittest::kittest::{NodeT, Queryable};
+use egui::{Event, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use egui_kittest::kittest::Queryable;
 
-type Page = Harness<'static, Option<App>>;
+/// A page that has just begun to tune.
+fn page_of(size: Vec2) -> Page {
+    let mut page = crate::support::page_of(size);
+    tune(&mut page, size);
+    page
+}
 
-const DESK: Vec2 = vec2(1440.0, 900.0);
-const PHONE: Vec2 = vec2(390.0, 844.0);
-
-fn page_of(size: Vec2, theme: egui::Theme) -> Page {
-    let ui = |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let host = || Host { prefers_reduced_motion: true, ..Host::default() };
-        app.get_or_insert_with(|| App::new(ui.ctx(), None, host())).ui(ui);
-    };
-    let setup = centrode::app::theme::install;
-    let builder = Harness::builder().with_size(size).with_step_dt(0.1).with_theme(theme).with_context_setup(setup);
-    let mut page = builder.wgpu().build_ui_state(ui, None);
-    page.get_by_label("Pause").click();
-    page.run_steps(2);
-    // The page follows the system until someone chooses.
-    for _ in 0..if theme == egui::Theme::Light { 1 } else { 2 } {
-        page.get_by_label_contains("Theme: ").click();
-        page.run_steps(2);
-    }
+/// Goes to the tuning view.
+pub fn tune(page: &mut Page, size: Vec2) {
     page.get_by_role_and_label(Role::ComboBox, "Show").click();
     page.run_steps(2);
-    picture(&mut page, &format!("menu-{}", size.x));
     // Where the menu is scrolled, the last of it is reached by way of another.
     page.get_by_role_and_label(Role::ListBoxOption, "Table II").click();
     page.run_steps(2);
     page.get_by_role_and_label(Role::RadioButton, if size.x < 560.0 { "Tune" } else { "Tuning" }).click();
     page.run_steps(2);
-    assert_eq!(app(&page).state().stage, Stage::Tuning);
-    page
-}
-
-fn app(page: &Page) -> &App {
-    page.state().as_ref().expect("built")
-}
-
-fn finish(page: &mut Page) {
-    for _ in 0..4000 {
-        page.step();
-        if !app(page).is_working() {
-            page.run_steps(2);
-            return;
-        }
-    }
-    panic!("the study never ends");
+    assert_eq!(app(page).state().stage, Stage::Tuning);
 }
 
 fn said(page: &Page, part: &str) -> String {
-    let texts = page
-        .query_all_by_label_contains(part)
-        .filter_map(|node| node.accesskit_node().label().or_else(|| node.accesskit_node().value()));
-    texts.collect::<Vec<_>>().join(" | ")
-}
-
-/// A picture for people to look at, where the environment names a directory.
-fn picture(page: &mut Page, name: &str) {
-    let image = page.render().expect("a picture");
-    if let Ok(directory) = std::env::var("CENTRODE_PICTURES") {
-        image.save(format!("{directory}/{name}.png")).expect("saved");
-    }
+    texts(page, part).join(" | ")
 }
 
 fn xi2(page: &Page) -> Option<f64> {
@@ -77,11 +37,11 @@ fn xi2(page: &Page) -> Option<f64> {
 
 #[test]
 fn it_says_what_the_thresholds_achieve_and_which_to_take() {
-    let mut page = page_of(DESK, egui::Theme::Light);
+    let mut page = page_of(DESK);
     assert_eq!(app(&page).state().stage, Stage::Tuning);
     finish(&mut page);
-    let now = said(&page, "free runs");
-    assert!(now.contains("of 100 free runs") && now.contains("Contact on disk 2 is found"), "{now}");
+    let now = said(&page, "runs without contact gave");
+    assert!(now.contains("of 100 runs without contact") && now.contains("Contact on disk 2 is detected"), "{now}");
     assert!(!said(&page, "Soonest with at most 5").is_empty());
     assert!(said(&page, "centrode study").contains("--preset bench --repeats 100 --sweep filter.length=50,100"));
     page.get_by_role_and_label(Role::Button, "Take it").click();
@@ -102,7 +62,7 @@ fn it_says_what_the_thresholds_achieve_and_which_to_take() {
 
 #[test]
 fn a_drag_on_each_picture_moves_the_threshold() {
-    let mut page = page_of(DESK, egui::Theme::Dark);
+    let mut page = page_of(DESK);
     finish(&mut page);
     let figures = [
         "Contacts found against false alarms",
@@ -127,7 +87,7 @@ fn a_drag_on_each_picture_moves_the_threshold() {
 
 #[test]
 fn a_finger_drags_the_dot_and_scrolls_from_anywhere_else() {
-    let mut page = page_of(PHONE, egui::Theme::Dark);
+    let mut page = page_of(PHONE);
     finish(&mut page);
     let finger = |page: &mut Page, at: egui::Pos2, phase: TouchPhase| {
         page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos: at, force: None });
@@ -159,7 +119,7 @@ fn a_finger_drags_the_dot_and_scrolls_from_anywhere_else() {
 
 #[test]
 fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
-    let mut page = page_of(DESK, egui::Theme::Dark);
+    let mut page = page_of(DESK);
     page.run_steps(3);
     page.get_by_role_and_label(Role::Button, "Stop").click();
     page.run_steps(3);
@@ -176,8 +136,12 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
     let scenario = app(&page).state().scenario.clone();
     assert_eq!(scenario.filter.length, length, "joint forces are not filtered");
     assert_ne!(scenario.detection.xi1, Threshold::On(0.03));
-    for (option, part) in [("Forces", "mN·m"), ("Both", "free runs"), ("Either", "free runs"), ("1 %", "At least 381")]
-    {
+    for (option, part) in [
+        ("Forces", "mN·m"),
+        ("Both", "runs without contact gave"),
+        ("Either", "runs without contact gave"),
+        ("1 %", "at least 381 runs"),
+    ] {
         page.get_by_role_and_label(Role::RadioButton, option).click();
         page.run_steps(2);
         assert!(!said(&page, part).is_empty(), "{option}: {part}");
@@ -186,31 +150,30 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
 }
 
 #[test]
-fn it_fits_in_every_size_and_theme_and_with_nothing_to_find() {
-    for (size, form) in [(DESK, "desk"), (PHONE, "phone"), (vec2(844.0, 390.0), "low"), (vec2(1024.0, 768.0), "tablet")]
-    {
-        for (theme, look) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
-            let mut page = page_of(size, theme);
-            if size == DESK || size == PHONE {
-                page.run_steps(6);
-                picture(&mut page, &format!("tuning-begun-{form}-{look}"));
-                finish(&mut page);
-            } else {
-                page.run_steps(130);
-            }
-            picture(&mut page, &format!("tuning-{form}-{look}"));
-            if size == PHONE {
-                page.hover_at(pos2(200.0, 400.0));
-                page.event(egui::Event::MouseWheel {
-                    unit: egui::MouseWheelUnit::Point,
-                    delta: vec2(0.0, -600.0),
-                    source: egui::MouseWheelSource::Unknown,
-                    phase: egui::TouchPhase::Move,
-                    modifiers: egui::Modifiers::NONE,
-                });
-                page.run_steps(8);
-                picture(&mut page, &format!("tuning-scrolled-{form}-{look}"));
-            }
+fn it_fits_in_every_size() {
+    let mut page = page_of(DESK);
+    page.run_steps(6);
+    for done in [false, true] {
+        for size in [PHONE, LOW, TABLET, DESK] {
+            page.set_size(size);
+            page.run_steps(3);
+            assert_ne!(app(&page).is_working(), done);
+            fits(&page, size, "the study");
+            let pictures = page.query_all_by_role(Role::Figure).count();
+            assert!(pictures >= 2, "{size}: {pictures} pictures");
+            assert_eq!(said(&page, "So far: ").is_empty(), done, "{size}");
+            assert!(!done || !said(&page, "Soonest with at most 5").is_empty(), "{size}");
         }
+        finish(&mut page);
     }
+}
+
+#[test]
+fn without_a_contact_there_is_nothing_to_advise() {
+    let mut page = page_of(DESK);
+    slide(&mut page, "Contact disk", 0.0);
+    finish(&mut page);
+    assert!(!said(&page, "There is no contact to detect").is_empty());
+    assert!(!said(&page, "Set a contact to be advised").is_empty());
+    assert!(page.query_by_role_and_label(Role::Button, "Take it").is_none());
 }

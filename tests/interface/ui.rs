@@ -1,50 +1,13 @@
 //! The page, headless: every control found by its name, moved or typed into, and the run looked at.
 
-use centrode::app::{App, Host};
+use crate::support::{Page, app, build, click, page_of, slide, slider};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
-use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
-use egui_kittest::{Harness, HarnessBuilder, Node};
-use egui_wgpu::{RenderState, RendererOptions};
-
-type Page = Harness<'static, Option<App>>;
-
-/// A page of a size, paused, as a person would find it.
-fn page_of(size: Vec2) -> Page {
-    paused(build(Harness::builder().with_size(size), None))
-}
-
-fn build(builder: HarnessBuilder<Option<App>>, gpu: Option<RenderState>) -> Page {
-    let ui = move |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let host = || Host { prefers_reduced_motion: true, ..Host::default() };
-        app.get_or_insert_with(|| App::new(ui.ctx(), gpu.as_ref(), host())).ui(ui);
-    };
-    let setup = centrode::app::theme::install;
-    builder.with_step_dt(0.1).with_theme(egui::Theme::Dark).with_context_setup(setup).build_ui_state(ui, None)
-}
-
-fn paused(mut page: Page) -> Page {
-    page.get_by_label("Pause").click();
-    page.run_steps(2);
-    page
-}
 
 fn page() -> Page {
     page_of(vec2(1440.0, 900.0))
-}
-
-fn app(page: &Page) -> &App {
-    page.state().as_ref().expect("built")
-}
-
-fn slider<'a>(page: &'a Page, label: &'a str) -> Node<'a> {
-    page.get_by_role_and_label(Role::Slider, label)
-}
-
-fn slide(page: &mut Page, label: &str, value: f64) {
-    slider(page, label).set_value_accesskit(value);
-    page.run_steps(2);
 }
 
 /// Clicks into a field, types over what is there, and presses Enter.
@@ -64,11 +27,6 @@ fn type_into(page: &mut Page, label: &str, text: &str) {
 
 fn field(page: &Page, label: &str) -> String {
     page.get_by_role_and_label(Role::TextInput, &format!("{label} value")).value().unwrap_or_default()
-}
-
-fn click(page: &mut Page, label: &str) {
-    page.get_by_label(label).click();
-    page.run_steps(2);
 }
 
 fn detection_time(page: &Page) -> Option<f64> {
@@ -387,73 +345,6 @@ fn every_input_has_a_name_and_nothing_leaves_the_page() {
                 let rect = node.rect();
                 // Controls further down are scrolled to.
                 assert!(rect.left() >= screen.left() && rect.right() <= screen.right(), "{size}: {node:?}");
-            }
-        }
-    }
-}
-
-/// Writes pictures of the page for the eye into the folder that `CENTRODE_PICTURES` names: `cargo test --all-features --test ui`.
-#[test]
-fn pictures() {
-    let Some(folder) = std::env::var_os("CENTRODE_PICTURES") else { return };
-    let sizes = [
-        ("desk", 1440.0, 900.0),
-        ("large", 1920.0, 1080.0),
-        ("tablet", 768.0, 1024.0),
-        ("phone", 390.0, 844.0),
-        ("low", 844.0, 390.0),
-    ];
-    for (name, width, height) in sizes {
-        for theme in [egui::Theme::Dark, egui::Theme::Light] {
-            let gpu = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
-            let builder = Harness::builder()
-                .with_size(vec2(width, height))
-                .with_pixels_per_point(if width < 500.0 { 2.0 } else { 1.0 })
-                .renderer(WgpuTestRenderer::from_render_state(gpu.clone()));
-            let mut page = paused(build(builder, Some(gpu)));
-            // The choice of the page wins over the harness's theme.
-            click(&mut page, "Theme: system");
-            if theme == egui::Theme::Dark {
-                click(&mut page, "Theme: light");
-            }
-            slide(&mut page, "Time", 6.4);
-            page.remove_cursor();
-            page.run_steps(3);
-            let theme = format!("{theme:?}").to_lowercase();
-            let save = |page: &mut Page, what: &str| {
-                let picture = page.render().expect("rendered");
-                picture.save(std::path::Path::new(&folder).join(format!("{name}{what}-{theme}.png"))).expect("saved");
-            };
-            save(&mut page, "");
-            if name == "phone" {
-                click(&mut page, "Controls");
-                page.run_steps(3);
-                page.remove_cursor();
-                page.run_steps(2);
-                save(&mut page, "-sheet");
-                click(&mut page, "Controls");
-                page.run_steps(3);
-                for tab in ["Plots", "Bending plane"] {
-                    click(&mut page, tab);
-                    page.remove_cursor();
-                    page.run_steps(2);
-                    save(&mut page, &format!("-{}", tab.to_lowercase().replace(' ', "-")));
-                }
-            }
-            if name == "desk" {
-                type_into(&mut page, "Contact time", "soon");
-                slide(&mut page, "Seed", 12.0);
-                click(&mut page, "ξ1 (joint force) on");
-                click(&mut page, "Preset");
-                page.remove_cursor();
-                page.run_steps(2);
-                save(&mut page, "-changed");
-                page.key_press(Key::Escape);
-                page.run_steps(2);
-                click(&mut page, "Help");
-                page.remove_cursor();
-                page.run_steps(2);
-                save(&mut page, "-help");
             }
         }
     }

@@ -1,0 +1,10 @@
+//! The interface without a browser: widgets found by their names, moved, and looked at.
+
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
+
+mod pictures;
+mod stages;
+mod support;
+mod tuning;
+mod ui;
+mod views;

@@ -1,0 +1,124 @@
+//! Pictures of the page held against those in `tests/snapshots`. `cargo xtask renew pictures` replaces them.
+//!
+//! They are drawn by a software renderer (Mesa's lavapipe, which the test command installs), so that machines agree.
+
+use crate::stages::show;
+use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paused, slide};
+use crate::tuning::tune;
+use egui::Theme::{Dark, Light};
+use egui::Vec2;
+use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+use egui_kittest::{Harness, SnapshotOptions};
+use egui_wgpu::RendererOptions;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+
+/// How far a pixel may be off, as a squared distance of colours (YIQ, 255 to the full): four steps of grey.
+const TOLERANCE: f32 = 18.0;
+/// What remains of colours in the stored pictures: multiples of this.
+const STEP: u8 = 4;
+/// How many pixels may be further off than that: edges that another version of the renderer samples otherwise.
+const STRAYS: usize = 40;
+
+/// A page of a size and theme, paused at a time (s), with its 3D view.
+fn page(size: Vec2, theme: egui::Theme, time: f64) -> Page {
+    let gpu = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+    let renderer = WgpuTestRenderer::from_render_state(gpu.clone());
+    let mut page = paused(build(Harness::builder().with_size(size).renderer(renderer), Some(gpu)));
+    choose_theme(&mut page, theme);
+    slide(&mut page, "Time", time);
+    page
+}
+
+/// Compares the page with its picture.
+fn compare(page: &mut Page, name: &str) {
+    page.remove_cursor();
+    page.run_steps(3);
+    let options = SnapshotOptions::new().threshold(TOLERANCE).max_failed_pixels(STRAYS);
+    page.try_snapshot_options(name, &options).unwrap_or_else(|differs| panic!("{differs}"));
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        pack(&options.output_path.join(format!("{name}.png")));
+    }
+}
+
+/// Writes a picture anew with fewer colours, well within the tolerance, and a fraction of the bytes.
+fn pack(path: &std::path::Path) {
+    let mut picture = image::open(path).expect("a picture").to_rgb8();
+    picture.iter_mut().for_each(|value| *value = value.saturating_add(STEP / 2) / STEP * STEP);
+    let file = std::io::BufWriter::new(std::fs::File::create(path).expect("written"));
+    let encoder = PngEncoder::new_with_quality(file, CompressionType::Best, FilterType::NoFilter);
+    picture.write_with_encoder(encoder).expect("written");
+}
+
+#[test]
+fn robot_before_detection() {
+    compare(&mut page(DESK, Dark, 6.0), "robot-contact-desk-dark");
+}
+
+#[test]
+fn robot_after_detection() {
+    compare(&mut page(DESK, Light, 7.0), "robot-detected-desk-light");
+}
+
+#[test]
+fn phone() {
+    let mut page = page(PHONE, Dark, 6.6);
+    compare(&mut page, "robot-detected-phone-dark");
+    click(&mut page, "Plots");
+    compare(&mut page, "plots-phone-dark");
+}
+
+#[test]
+fn controls_on_a_phone() {
+    let mut page = page(PHONE, Light, 6.6);
+    click(&mut page, "Controls");
+    page.run_steps(3);
+    compare(&mut page, "controls-phone-light");
+}
+
+#[test]
+fn figures() {
+    let mut page = page(DESK, Dark, 6.6);
+    show(&mut page, "Figure 4");
+    compare(&mut page, "figure-4-desk-dark");
+    click(&mut page, "Theme: dark");
+    click(&mut page, "Theme: system");
+    show(&mut page, "Figure 8");
+    compare(&mut page, "figure-8-desk-light");
+}
+
+#[test]
+fn table_ii() {
+    let mut page = page(DESK, Light, 6.6);
+    show(&mut page, "Table II");
+    compare(&mut page, "table-ii-desk-light");
+}
+
+#[test]
+fn map() {
+    let mut page = page(DESK, Dark, 6.6);
+    show(&mut page, "Map");
+    compare(&mut page, "map-desk-dark");
+}
+
+#[test]
+fn tuning_on_a_desk() {
+    let mut page = page(DESK, Light, 6.6);
+    tune(&mut page, DESK);
+    finish(&mut page);
+    compare(&mut page, "tuning-desk-light");
+}
+
+#[test]
+fn tuning_on_a_phone() {
+    let mut page = page(PHONE, Dark, 6.6);
+    tune(&mut page, PHONE);
+    finish(&mut page);
+    compare(&mut page, "tuning-phone-dark");
+}
+
+#[test]
+fn help() {
+    let mut page = page(PHONE, Light, 6.6);
+    click(&mut page, "Help");
+    compare(&mut page, "help-phone-light");
+}
