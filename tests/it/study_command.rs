@@ -88,7 +88,7 @@ fn without_contact_there_is_nothing_to_advise() {
     assert!(ours["cells"][0]["runs_contact"].is_null() && ours["cells"][0]["own"]["fcd"]["detection"].is_null());
     assert_eq!(ours["recommendation"]["verdict"], "no-contact");
     let said = centrode(&["study", "--repeats", "5", "--preset", "free"]);
-    assert!(String::from_utf8_lossy(&said.stdout).contains("none: without a contact"));
+    assert!(String::from_utf8_lossy(&said.stdout).contains("none: there is no contact to detect"));
 }
 
 #[test]
