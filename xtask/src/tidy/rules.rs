@@ -74,8 +74,8 @@ fn uses(code: &str, name: &str) -> bool {
         // In `crate::{a, b::{c}}` the names at the first depth.
         let listed = before.rfind("crate::{").is_some_and(|k| {
             let inside = &before[k + "crate::{".len()..];
-            inside.matches('{').count() == inside.matches('}').count() && inside.trim_end().ends_with([',', '{'])
-                || inside.is_empty()
+            let first_depth = inside.matches('{').count() == inside.matches('}').count();
+            first_depth && (inside.is_empty() || inside.trim_end().ends_with(','))
         });
         let package = after.starts_with("::") && !before.ends_with(is_name) && !before.ends_with("::");
         (from_root || listed || package) && begins(&code[i..])
