@@ -29,13 +29,7 @@ fn page_of(size: Vec2, theme: egui::Theme) -> Page {
         page.get_by_label_contains("Theme: ").click();
         page.run_steps(2);
     }
-    page.get_by_role_and_label(Role::ComboBox, "Show").click();
-    page.run_steps(2);
-    picture(&mut page, &format!("menu-{}", size.x));
-    // Where the menu is scrolled, the last of it is reached by way of another.
-    page.get_by_role_and_label(Role::ListBoxOption, "Table II").click();
-    page.run_steps(2);
-    page.get_by_role_and_label(Role::RadioButton, if size.x < 560.0 { "Tune" } else { "Tuning" }).click();
+    page.get_by_role_and_label(Role::Tab, "Tuning").click();
     page.run_steps(2);
     assert_eq!(app(&page).state().stage, Stage::Tuning);
     page

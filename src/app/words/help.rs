@@ -33,12 +33,13 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
     (
         "The paper on the page",
-        "The menu beside the presets puts a figure of the paper, its Table II, or the map on the stage, worked out anew as controls move. Each says that it is simulated here; only the \
-         columns headed as the paper's are its measurements. The map shows, for each place and bend at contact, the largest thresholds that still find it; a click puts the contact there.",
+        "The view Paper shows five figures of the paper and its Table II, simulated here; only the table headed as the paper's holds its measurements. Each is made with a preset of its own, whatever \
+         is set on this page; “Use this scenario” loads that preset, and the figure then follows the controls. The map shows, for each place and bend at contact, the largest thresholds that still find it; a click puts the contact there.",
     ),
     (
         "Tuning",
-        "The last of that menu repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show what an early alarm costs in false ones,          their bands what so few runs leave open. A dot is what is set, a ring what is advised; a click or a drag on any picture takes its threshold, and the plots below follow.",
+        "This view repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show how many false alarms an earlier detection costs; \
+         their bands show how far so few runs leave the numbers open. A dot is what is set, a ring what is advised; a click or a drag on any picture takes its threshold, and the plots below follow.",
     ),
     (
         "How to try things",
