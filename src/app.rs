@@ -25,7 +25,7 @@ use egui::{Rect, Ui, vec2};
 
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
-use centrode_core::scenario::preset::{self, Preset};
+use centrode_core::scenario::preset::Preset;
 use centrode_core::scenario::{Contact, Place, Start, Threshold, Xi1Rule};
 use centrode_core::study::tuning::watch::Method;
 use charts::plane;
@@ -37,7 +37,8 @@ use layout::Layout;
 use memo::Memo;
 use panels::chip::Chip;
 use stages::StageState;
-use stages::stage::Stage;
+use stages::source::Source;
+use stages::stage::{Section, Stage};
 use stages::studies::Studies;
 use stages::tuner::{Helper, Tuner};
 use stages::viewport::{self, ViewState};
@@ -69,6 +70,7 @@ pub struct App {
     studies: Studies,
     tuner: Tuner,
     stages: StageState,
+    source: Option<Source>,
     prefers_reduced_motion: bool,
 }
 
@@ -80,7 +82,7 @@ impl App {
         let state = State::default();
         ctx.set_theme(state.theme.preference());
         Self {
-            base: state.preset().scenario().unwrap_or_default(),
+            base: state::shipped(state.preset()),
             memo: Memo::new(&state.scenario),
             state,
             notes: BTreeMap::new(),
@@ -89,6 +91,7 @@ impl App {
             studies: Studies::default(),
             tuner: Tuner::new(host.helper),
             stages: StageState::default(),
+            source: None,
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
         }
@@ -139,7 +142,7 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
-            keys::read(ui, self.end(), &mut out);
+            keys::read(ui, self.end(), self.state.help, &mut out);
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
         }
@@ -158,7 +161,9 @@ impl App {
 
     /// A few pieces of the work for what is on the stage.
     fn study(&mut self, ui: &Ui) {
-        self.studies.update(self.state.stage, self.memo.run().plan.scenario());
+        let (stage, live) = (self.state.stage, self.memo.run().plan.scenario());
+        Source::update(&mut self.source, stage, (&self.state.preset, &self.base), live);
+        self.studies.update(stage, self.source.as_ref().map_or(live, |source| &source.scenario));
         if ui.ctx().current_pass_index() == 0 && self.studies.work() {
             ui.ctx().request_repaint();
         }
@@ -208,10 +213,25 @@ impl App {
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
-        let Self { state, base, memo, notes, chip, plots, view, studies, tuner, stages, prefers_reduced_motion } = self;
+        let Self {
+            state,
+            base,
+            memo,
+            notes,
+            chip,
+            plots,
+            view,
+            studies,
+            tuner,
+            stages,
+            source,
+            prefers_reduced_motion,
+        } = self;
         let (state, run) = (&*state, memo.run());
 
-        panels::title::title(ui, layout.title, state, layout.sheet, out);
+        panels::title::title(ui, layout.title, state, out);
+        panels::views::views(ui, layout.views, state.stage, state.paper, out);
+        panels::title::tools(ui, layout.tools, state, layout.sheet, out);
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(ToString::to_string);
             let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
@@ -224,12 +244,18 @@ impl App {
             layout::round(ui, layout.view);
             chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
         } else {
-            let inputs =
-                stages::Inputs { stage: state.stage, run, base: (&state.preset, base), tuner, tuning: state.tuning };
+            let inputs = stages::Inputs {
+                stage: state.stage,
+                run,
+                base: (&state.preset, base),
+                source: source.as_ref(),
+                tuner,
+                tuning: state.tuning,
+            };
             layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
         }
         layout::card(ui, "transport", layout.transport, |ui| {
-            panels::transport::transport(ui, layout.transport, state, run, out);
+            panels::transport::transport(ui, layout.transport, (state, run, cursor), out);
         });
         let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
             Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run)),
@@ -280,16 +306,16 @@ impl App {
                 Command::SetSpeed(speed) => self.state.speed = speed.clamp(0.1, 4.0),
                 Command::ToggleLoop => self.state.looping = !self.state.looping,
                 Command::Choose(preset) => {
-                    if self.state.stage.figure().is_some_and(|number| number.preset() != preset.name) {
+                    // Whoever chooses another experiment wants to see it: a figure would go on showing its own.
+                    if self.state.stage.own_preset().is_some_and(|own| own != preset.name) {
                         self.state.stage = Stage::Robot;
                     }
                     self.choose(preset);
                 }
                 Command::Show(stage) => {
                     self.state.stage = stage;
-                    let preset = stage.figure().and_then(|number| preset::find(number.preset()).ok());
-                    if let Some(preset) = preset.filter(|preset| preset.name != self.state.preset) {
-                        self.choose(preset);
+                    if stage.section() == Section::Paper {
+                        self.state.paper = stage;
                     }
                 }
                 Command::Touch { arc_length, bend } => self.change("contact.disk", |s| {
@@ -356,7 +382,7 @@ impl App {
 
     fn choose(&mut self, preset: &Preset) {
         self.state.preset = preset.name.into();
-        self.base = preset.scenario().unwrap_or_default();
+        self.base = state::shipped(preset);
         self.load(self.base.clone());
         self.state.time = state::lead_in(&self.state.scenario);
     }

@@ -64,6 +64,9 @@ impl Renderer {
 
     /// Draws a frame into its view's picture. Returns false when the picture already shows it and nothing was done.
     ///
+    /// A picture counts from [`Self::paint`] on: whoever paints must submit the encoder given here. A frame that is
+    /// given up before is drawn again.
+    ///
     /// At most one frame of a view may be prepared between two submissions.
     pub fn prepare(
         &mut self,
@@ -79,7 +82,7 @@ impl Renderer {
 
     /// Lays a view's picture over the pass's viewport. Without a picture it does nothing.
     pub fn paint(&self, pass: &mut wgpu::RenderPass<'_>, view: ViewId) {
-        if let Some(picture) = self.views.get(&view).and_then(View::picture) {
+        if let Some(picture) = self.views.get(&view).and_then(View::to_paint) {
             pass.set_pipeline(&self.pipelines.blit);
             pass.set_bind_group(0, picture, &[]);
             pass.draw(0..3, 0..1);

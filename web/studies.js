@@ -6,19 +6,24 @@ export function studies(core, module) {
   let worker = null;
   let failed = false;
 
-  function fail(reason) {
+  function fail(cause) {
     if (failed) return;
     failed = true;
-    console.warn(`Studies are made on the page, for the worker failed: ${reason}`);
+    // Its first line: what follows is where in the program.
+    const reason = String(cause?.message ?? cause).split("\n", 1)[0];
+    console.warn(`Studies are made on the page, for the worker failed: ${cause}`);
     worker?.terminate();
-    core.study_failed();
+    core.study_failed(reason);
   }
 
   function start() {
     worker = new Worker(new URL("./worker.js", import.meta.url), { type: "module" });
     worker.onerror = (event) => fail(event.message ?? "it could not be loaded");
     worker.onmessageerror = () => fail("its answer could not be read");
-    worker.onmessage = ({ data }) => (data.failed ? fail(data.failed) : core.study_answered(data.answer));
+    worker.onmessage = ({ data }) => {
+      if (data?.answer instanceof Uint8Array) core.study_answered(data.answer);
+      else fail(data?.failed ?? "it said what is no answer");
+    };
     worker.postMessage({ module });
   }
 

@@ -50,7 +50,7 @@ pub enum Command {
     Fold(&'static str),
     /// Show a tab, where there is room for one only.
     ShowTab(Tab),
-    /// Put something on the stage; a figure brings its preset.
+    /// Put something on the stage.
     Show(Stage),
     /// Put the contact at an arc length (m), from a bend (rad) on.
     Touch {

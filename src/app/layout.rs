@@ -2,14 +2,19 @@
 
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
+use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
 
 /// The rectangles of the page. What is not there is not shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
-    /// Title bar.
+    /// Title and presets.
     pub title: Rect,
+    /// The bar of views.
+    pub views: Rect,
+    /// Theme, help and, where they are in a sheet, controls.
+    pub tools: Rect,
     /// 3D view.
     pub view: Rect,
     /// Playback.
@@ -57,6 +62,28 @@ impl Cut {
     }
 }
 
+/// The page without its edges.
+fn inner(page: Rect) -> Cut {
+    Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP))
+}
+
+/// What stands at the top.
+struct Bar {
+    title: Rect,
+    views: Rect,
+    tools: Rect,
+}
+
+impl Bar {
+    /// All in one row; the title above what is so wide.
+    fn in_one(row: Rect, title: f32, sheet: bool) -> Self {
+        let mut row = Cut(row);
+        let tools = row.right(tools_width(sheet));
+        let title = row.left(title);
+        Self { title, views: row.0, tools }
+    }
+}
+
 impl Layout {
     /// Lays out a page of a size; `sheet` is how far the sheet of controls is open, 0 to 1.
     #[must_use]
@@ -75,8 +102,8 @@ impl Layout {
 
     /// Controls at the left, 3D in the middle, plane and readout at the right, plots below.
     fn desk(page: Rect) -> Self {
-        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
-        let title = rest.top(46.0);
+        let mut rest = inner(page);
+        let bar = rest.top(46.0);
         let controls = rest.left(306.0);
         let plots = rest.bottom((page.height() * 0.25).clamp(180.0, 330.0));
         let transport = rest.bottom(FLAT);
@@ -87,24 +114,27 @@ impl Layout {
             plane: Some(side.0),
             readout: Some(readout),
             plots: Some(plots),
-            ..Self::plain(title, rest.0, transport)
+            ..Self::plain(Bar::in_one(bar, controls.width(), false), rest.0, transport)
         }
     }
 
     /// Controls at the left; 3D, playback and tabs above each other.
     fn tablet(page: Rect) -> Self {
-        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
-        let title = rest.top(46.0);
+        let mut rest = inner(page);
+        let bar = rest.top(46.0);
         let controls = rest.left(276.0);
         let tabbed = rest.bottom((page.height() * 0.43).max(290.0));
         let transport = rest.bottom(if rest.0.width() < 560.0 { TALL } else { FLAT });
-        Self { controls: Some(controls), tabbed: Some(tabbed), ..Self::plain(title, rest.0, transport) }
+        let bar = Bar::in_one(bar, controls.width(), false);
+        Self { controls: Some(controls), tabbed: Some(tabbed), ..Self::plain(bar, rest.0, transport) }
     }
 
-    /// No more than title, 3D and playback.
-    fn plain(title: Rect, view: Rect, transport: Rect) -> Self {
+    /// No more than the bar, 3D and playback.
+    fn plain(Bar { title, views, tools }: Bar, view: Rect, transport: Rect) -> Self {
         Self {
             title,
+            views,
+            tools,
             view,
             transport,
             controls: None,
@@ -116,23 +146,26 @@ impl Layout {
         }
     }
 
-    /// 3D on top, tabs or the sheet below, playback under the thumb.
+    /// Views and 3D on top, tabs or the sheet below, playback under the thumb.
     fn phone(page: Rect, sheet: f32) -> Self {
-        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
-        let title = rest.top(46.0);
+        let mut rest = inner(page);
+        let mut bar = Cut(rest.top(42.0));
+        let tools = bar.right(tools_width(true));
+        let bar = Bar { title: bar.0, views: rest.top(38.0), tools };
         let transport = rest.bottom(TALL);
         let share = egui::lerp(0.52..=0.36, sheet);
         let view = rest.top(rest.0.height() * share);
-        Self::plain(title, view, transport).with_lower(rest.0, sheet)
+        Self::plain(bar, view, transport).with_lower(rest.0, sheet)
     }
 
     /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
     fn low(page: Rect, sheet: f32) -> Self {
-        let mut rest = Cut(page.shrink2(vec2(GAP, 0.0)).with_max_y(page.bottom() - GAP));
-        let title = rest.top(42.0);
+        let mut rest = inner(page);
+        let bar = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
-        Self::plain(title, rest.0, transport).with_lower(side, sheet)
+        let title = (0.32 * bar.width()).clamp(150.0, 300.0);
+        Self::plain(Bar::in_one(bar, title, true), rest.0, transport).with_lower(side, sheet)
     }
 
     fn with_lower(self, place: Rect, sheet: f32) -> Self {
@@ -152,6 +185,8 @@ impl Layout {
     pub fn all(&self) -> Vec<Rect> {
         [
             Some(self.title),
+            Some(self.views),
+            Some(self.tools),
             Some(self.view),
             Some(self.transport),
             self.controls,

@@ -5,3 +5,4 @@ pub mod readout;
 pub mod tabs;
 pub mod title;
 pub mod transport;
+pub mod views;

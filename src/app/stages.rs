@@ -1,7 +1,8 @@
-//! What can stand on the stage in the robot's place: a figure, Table II, the map.
+//! What can stand on the stage in the robot's place: a figure, Table II, the map, the tuning.
 
 mod figure;
 mod map;
+pub mod source;
 pub mod stage;
 pub mod studies;
 mod table;
@@ -12,21 +13,25 @@ pub mod viewport;
 use crate::app::charts::notation;
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::stages::stage::Stage;
+use crate::app::stages::source::Source;
+use crate::app::stages::stage::{Section, Stage};
 use crate::app::stages::studies::{Found, Studies};
 use crate::app::stages::tuner::Tuner;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
-use crate::app::widgets::segmented::segmented;
+use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
-use egui::{Align2, Rect, Ui, pos2, vec2};
+use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 use map::Picture;
 use tuning::TuningState;
 
 /// Space around the content.
 const PAD: f32 = 14.0;
+/// Below this height, and from this width on, what is above the content stands in one row.
+const LOW: f32 = 340.0;
+const WIDE: f32 = 700.0;
 
 /// Pictures that are kept between frames.
 #[derive(Default)]
@@ -43,6 +48,8 @@ pub struct Inputs<'a> {
     pub run: &'a Run,
     /// The preset that resets go back to: its name and scenario.
     pub base: (&'a str, &'a Scenario),
+    /// What a figure or Table II is made with.
+    pub source: Option<&'a Source>,
     /// The study behind the tuning view.
     pub tuner: &'a Tuner,
     /// What is looked at in it.
@@ -59,14 +66,28 @@ pub fn stage(
     out: &mut Vec<Command>,
 ) {
     let theme = Theme::of(ui);
-    let strip = Rect::from_min_max(rect.min + vec2(8.0, 8.0), pos2(rect.right() - 8.0, rect.top() + 40.0));
-    choice(ui, strip, inputs.stage, out);
-    let line = Rect::from_min_max(pos2(rect.left(), strip.bottom() + 4.0), pos2(rect.right(), strip.bottom() + 6.0));
+    let mut top = rect.top() + 8.0;
+    // On a phone on its side there is no height to spare and width enough.
+    let low = rect.height() < LOW && rect.width() > WIDE;
+    if inputs.stage.section() == Section::Paper {
+        let room = if low { 0.58 * rect.width() } else { rect.width() - 8.0 };
+        let strip = Rect::from_min_max(pos2(rect.left() + 8.0, top), pos2(rect.left() + room, top + 32.0));
+        choice(ui, strip, inputs.stage, out);
+        if let Some(source) = inputs.source.filter(|_| low) {
+            source.line(ui, strip.with_min_x(strip.right() + 14.0).with_max_x(rect.right() - 8.0), out);
+        }
+        top = strip.bottom() + 4.0;
+    }
+    let line = Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right(), top + 2.0));
     if let Some(progress) = studies.progress().or(inputs.tuner.left()) {
         let share = progress.done as f32 / progress.of.max(1) as f32;
         ui.painter().rect_filled(line.with_max_x(rect.left() + rect.width() * share), 0.0, theme.accent);
     }
-    let body = Rect::from_min_max(pos2(rect.left() + PAD, line.bottom() + 6.0), rect.max - vec2(PAD, 10.0));
+    let mut body = Rect::from_min_max(pos2(rect.left() + PAD, line.bottom() + 6.0), rect.max - vec2(PAD, 10.0));
+    if let Some(source) = inputs.source.filter(|_| !low) {
+        source.line(ui, body.with_max_y(body.top() + source::LINE), out);
+        body.min.y += source::LINE + 6.0;
+    }
     if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
         let said = format!("{} cannot be shown: {refused}.", inputs.stage.name());
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(body).id_salt("refused"));
@@ -79,7 +100,7 @@ pub fn stage(
     }
     match studies.found() {
         Some((Found::Figure(shown), _)) => figure::figure(ui, body, shown, inputs),
-        Some((Found::Table(shown), _)) => table::table(ui, body, shown),
+        Some((Found::Table(shown, rows), _)) => table::table(ui, body, shown, rows),
         Some((Found::Map(shown), version)) => map::map(ui, body, shown, version, inputs, &mut state.map, out),
         None => {
             text::paint(ui, body.center(), Align2::CENTER_CENTER, "Computing …", fonts::regular(13.5), theme.dim);
@@ -87,17 +108,16 @@ pub fn stage(
     }
 }
 
-/// All that can stand there, side by side; short names where there is little room.
+/// What there is of the paper, side by side; short where there is little room.
 fn choice(ui: &mut Ui, strip: Rect, stage: Stage, out: &mut Vec<Command>) {
-    let narrow = strip.width() < 560.0;
-    let names = Stage::ALL.map(|stage| match (narrow, stage.figure()) {
-        (true, Some(_)) => stage.name().trim_start_matches("Figure "),
-        (true, None) if stage == Stage::Table2 => "II",
-        (true, None) if stage == Stage::Tuning => "Tune",
-        _ => stage.name(),
+    let short = ["Fig. 3", "Fig. 4", "Fig. 6", "Fig. 7", "Fig. 8", "Table II"];
+    let narrow = strip.width() < 480.0;
+    let options: [Segment<'_>; 6] = std::array::from_fn(|k| {
+        let stage = Stage::PAPER[k];
+        Segment { text: if narrow { short[k] } else { stage.name() }, name: stage.name(), hint: stage.summary() }
     });
-    let chosen = Stage::ALL.iter().position(|other| *other == stage).unwrap_or(0);
-    if let Some(picked) = segmented(ui, strip, "Stage", &names, chosen) {
-        out.push(Command::Show(Stage::ALL[picked]));
+    let chosen = Stage::PAPER.iter().position(|other| *other == stage).unwrap_or(0);
+    if let Some(picked) = segments(ui, strip, ("Paper", Role::RadioButton), &options, chosen) {
+        out.push(Command::Show(Stage::PAPER[picked]));
     }
 }

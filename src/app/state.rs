@@ -38,6 +38,8 @@ pub struct State {
     pub folded: BTreeSet<String>,
     /// What stands on the stage.
     pub stage: Stage,
+    /// What of the paper stood there last.
+    pub paper: Stage,
     /// What is looked at while tuning.
     pub tuning: Tuning,
     /// What a small screen shows.
@@ -82,7 +84,7 @@ pub enum Tab {
 impl Default for State {
     fn default() -> Self {
         let preset = &PRESETS[0];
-        let scenario = preset.scenario().unwrap_or_default();
+        let scenario = shipped(preset);
         Self {
             preset: preset.name.into(),
             time: lead_in(&scenario),
@@ -94,6 +96,7 @@ impl Default for State {
             theme: ThemeChoice::System,
             folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
             stage: Stage::Robot,
+            paper: Stage::PAPER[0],
             tuning: Tuning::default(),
             tab: Tab::Result,
             sheet: false,
@@ -108,6 +111,15 @@ impl State {
     pub fn preset(&self) -> &'static Preset {
         preset::find(&self.preset).unwrap_or(&PRESETS[0])
     }
+}
+
+/// The scenario of a preset that comes with the program.
+///
+/// # Panics
+/// When it is invalid, which a test of all of them excludes.
+#[must_use]
+pub fn shipped(preset: &Preset) -> Scenario {
+    preset.scenario().expect("presets that come with the program are valid")
 }
 
 /// Where playback opens and loops to, s: shortly before the motion.

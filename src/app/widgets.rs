@@ -1,5 +1,6 @@
 //! Widgets that egui lacks, or has in another shape.
 
+pub mod button;
 pub mod field;
 pub mod icon;
 pub mod rail;

@@ -9,6 +9,7 @@ use super::{
     uniforms::{Globals, Inputs, SHADOW_TEXELS},
 };
 use crate::scene::{Camera, Studio};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 pub(super) struct View {
     target: Option<Target>,
@@ -23,6 +24,9 @@ pub(super) struct View {
     signs: Reused,
     uploaded: Option<u64>,
     drawn: Option<Drawn>,
+    /// Whether `drawn` was laid on a target. A frame can end between the two (no surface to be had), and what its
+    /// encoder held is lost; only `paint` knows, which has no more than a shared reference.
+    painted: AtomicBool,
 }
 
 /// What a finished picture depends on.
@@ -84,11 +88,13 @@ impl View {
             signs: Reused::new("scene markers", wgpu::BufferUsages::VERTEX),
             uploaded: None,
             drawn: None,
+            painted: AtomicBool::new(false),
         }
     }
 
-    /// The finished picture, if there is one.
-    pub(super) fn picture(&self) -> Option<&wgpu::BindGroup> {
+    /// The picture, if there is one, to be laid on a target now.
+    pub(super) fn to_paint(&self) -> Option<&wgpu::BindGroup> {
+        self.painted.store(true, Ordering::Relaxed);
         self.target.as_ref().map(|t| &t.blit)
     }
 
@@ -112,10 +118,11 @@ impl View {
             size,
             pixels_per_point,
         };
-        if self.drawn == Some(wanted) {
+        if self.drawn == Some(wanted) && *self.painted.get_mut() {
             return false;
         }
         self.drawn = Some(wanted);
+        *self.painted.get_mut() = false;
 
         if self.uploaded != Some(frame.scene_version) {
             self.upload(device, queue, frame);

@@ -6,7 +6,7 @@
 use super::with_hooks;
 use crate::app::stages::tuner::Helper;
 use centrode_core::study::tuning::remote::Remote;
-use std::cell::{Cell, RefCell};
+use std::cell::RefCell;
 use wasm_bindgen::prelude::*;
 
 /// The worker's end.
@@ -30,14 +30,17 @@ impl StudyWorker {
     }
 
     /// What has grown since the last answer.
-    pub fn answer(&mut self) -> Vec<u8> {
-        self.0.answer()
+    ///
+    /// # Errors
+    /// Throws a message when it cannot be written.
+    pub fn answer(&mut self) -> Result<Vec<u8>, JsValue> {
+        self.0.answer().map_err(|error| JsValue::from_str(&error))
     }
 }
 
 thread_local! {
     static ANSWERS: RefCell<Vec<Vec<u8>>> = const { RefCell::new(Vec::new()) };
-    static FAILED: Cell<bool> = const { Cell::new(false) };
+    static FAILURE: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
 /// An answer of the worker has come.
@@ -47,10 +50,10 @@ pub fn study_answered(answer: Vec<u8>) {
     super::repaint();
 }
 
-/// There is no worker, or no longer: studies are made between frames from now on.
+/// There is no worker, or no longer, and why: studies are made between frames from now on.
 #[wasm_bindgen]
-pub fn study_failed() {
-    FAILED.set(true);
+pub fn study_failed(reason: String) {
+    FAILURE.set(Some(reason));
     super::repaint();
 }
 
@@ -67,7 +70,7 @@ impl Helper for Worker {
         ANSWERS.take()
     }
 
-    fn works(&self) -> bool {
-        !FAILED.get()
+    fn failure(&self) -> Option<String> {
+        FAILURE.with_borrow(Clone::clone)
     }
 }

@@ -6,11 +6,10 @@ use centrode_core::study::Job;
 use centrode_core::study::figure::{FigureJob, Number};
 use centrode_core::study::table2::Table2Job;
 
-/// Picks something for the stage from the menu.
+/// Picks something of the paper.
 fn show(page: &mut Page, name: &str) {
-    page.click("ComboBox", "Show");
-    page.frames();
-    page.click("ListBoxOption", name);
+    page.click("Tab", "Paper");
+    page.click("RadioButton", name);
 }
 
 /// Waits for a widget whose name has all the parts.
@@ -38,7 +37,7 @@ fn table_ii_is_worked_out_in_the_page_as_natively() {
 }
 
 #[test]
-fn a_figure_brings_its_preset_and_a_click_on_the_map_the_contact() {
+fn a_figure_has_a_scenario_of_its_own_and_a_click_on_the_map_brings_the_contact() {
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     page.click("Button", "Pause");
     show(&mut page, "Figure 8");
@@ -47,9 +46,11 @@ fn a_figure_brings_its_preset_and_a_click_on_the_map_the_contact() {
     job.finish();
     let figure = job.figure();
     named(&mut page, &[&figure.title, &figure.caption]);
+    page.click("Button", "Use this scenario");
+    page.wait("the scenario", |page| page.widgets().iter().all(|w| w.label != "Use this scenario").then_some(()));
     let before = page.number("detectionTime").expect("figure 8 shows detections");
 
-    show(&mut page, "Map");
+    page.click("Tab", "Map");
     let map = named(&mut page, &["Map of the largest ξ2"]);
     // The middle: 15 mm at 45°, which the motion reaches before the contact of the figure.
     page.click("Figure", &map);

@@ -22,8 +22,7 @@ fn main() {
             for problem in page.problems() {
                 println!("  console: {problem}");
             }
-            page.click("ComboBox", "Show");
-            page.click("ListBoxOption", "Tuning");
+            page.click("Tab", "Tuning");
             page.wait("the study", |page| {
                 let study: serde_json::Value = serde_json::from_str(&page.data("tuning")?).ok()?;
                 (study["done"] == study["of"]).then_some(())

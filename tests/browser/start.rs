@@ -87,6 +87,26 @@ fn fills_a_phone_and_turns_with_it() {
 }
 
 #[test]
+fn an_emulated_pixel_ratio_reaches_the_canvas() {
+    let phone = Options { scale: 1.0, emulated: Some(3.0), ..Options::phone() };
+    let mut page = Page::open(Renderer::WebGl, "?test", phone);
+    for ratio in [3.0, 2.625, 2.0, 1.0] {
+        page.emulate(ratio);
+        let wanted = [390.0, 844.0].map(|side: f64| (side * ratio).round());
+        page.wait(&format!("a canvas of {wanted:?} pixels"), |page| {
+            let canvas = page.eval("(({ width, height }) => [width, height])(document.getElementById('canvas'))");
+            (serde_json::from_value::<[f64; 2]>(canvas).ok()? == wanted).then_some(())
+        });
+        // Everything is drawn for the window that there is, not for one a few times smaller.
+        page.wait("the bar of views in its place", |page| {
+            let [x, y, width, _] = page.widget("Tab", "Tuning").bounds?;
+            (x > 250.0 && x + width < 390.0 && y < 100.0).then_some(())
+        });
+    }
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
 fn follows_dark_and_light() {
     for dark in [false, true] {
         let options = Options { dark, ..Options::default() };

@@ -40,8 +40,7 @@ fn plain(value: Value) -> Value {
 }
 
 fn open(page: &mut Page) {
-    page.click("ComboBox", "Show");
-    page.click("ListBoxOption", "Tuning");
+    page.click("Tab", "Tuning");
     page.wait("the study to begin", |page| tuning(page).filter(|tuning| tuning["done"].as_f64() > Some(0.0)));
 }
 
@@ -128,4 +127,19 @@ fn a_worker_that_cannot_load_is_done_without() {
     open(&mut page);
     let without = page.wait("the study", |page| tuning(page).filter(|tuning| tuning["done"].as_f64() > Some(20.0)));
     assert_eq!(without["helper"], false);
+}
+
+#[test]
+fn a_worker_that_answers_nonsense_is_done_without() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    open(&mut page);
+    page.click("RadioButton", "1000");
+    page.eval("centrode.study_answered(new Uint8Array([255, 255, 255, 255, 255, 255]))");
+    let without = page.wait("the page's own study", |page| tuning(page).filter(|tuning| tuning["helper"] == false));
+    page.wait("the study to go on", |page| tuning(page).filter(|now| now["done"].as_f64() > without["done"].as_f64()));
+    page.wait("words about it", |page| {
+        let mut said = page.widgets().into_iter().map(|widget| widget.label + &widget.value);
+        said.find(|said| said.contains("The worker failed (its answer cannot be read"))
+    });
+    assert_eq!(page.problems(), Vec::<String>::new());
 }

@@ -103,7 +103,7 @@ fn map() {
 #[test]
 fn tuning_on_a_desk() {
     let mut page = page(DESK, Light, 6.6);
-    tune(&mut page, DESK);
+    tune(&mut page);
     finish(&mut page);
     compare(&mut page, "tuning-desk-light");
 }
@@ -111,7 +111,7 @@ fn tuning_on_a_desk() {
 #[test]
 fn tuning_on_a_phone() {
     let mut page = page(PHONE, Dark, 6.6);
-    tune(&mut page, PHONE);
+    tune(&mut page);
     finish(&mut page);
     compare(&mut page, "tuning-phone-dark");
 }

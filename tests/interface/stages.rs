@@ -1,35 +1,93 @@
-//! The paper on the page, headless: every figure, Table II and the map, chosen, drawn, and used.
+//! The views of the page, headless: every figure, Table II and the map, chosen, drawn, and used.
 
-use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, page_of, slide, texts};
-use centrode::app::stages::stage::Stage;
+use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, page_of, texts};
+use centrode::app::stages::stage::{Section, Stage};
 use centrode_core::scenario::{Place, Start};
 use egui::accesskit::Role;
-use egui::pos2;
-use egui_kittest::kittest::Queryable;
+use egui::{Key, pos2, vec2};
+use egui_kittest::kittest::{NodeT, Queryable};
 
-/// Opens the menu of stages and picks one; then waits until its work is done.
+/// Picks a stage: its view in the bar, and what of the paper it is; then waits until its work is done.
 pub fn show(page: &mut Page, name: &str) {
-    page.get_by_role_and_label(Role::ComboBox, "Show").click();
+    let stage = Stage::ALL.into_iter().find(|stage| stage.name() == name).expect("a stage");
+    page.get_by_role_and_label(Role::Tab, stage.section().name()).click();
+    page.run_steps(2);
+    if stage.section() == Section::Paper {
+        page.get_by_role_and_label(Role::RadioButton, name).click();
+        page.run_steps(2);
+    }
+    assert_eq!(app(page).state().stage, stage);
+    finish(page);
+}
+
+/// Picks a preset from the menu.
+fn choose(page: &mut Page, name: &str) {
+    page.get_by_role_and_label(Role::ComboBox, "Preset").click();
     page.run_steps(2);
     page.get_by_role_and_label(Role::ListBoxOption, name).click();
+    page.run_steps(2);
+}
+
+fn slide(page: &mut Page, label: &str, value: f64) {
+    page.get_by_role_and_label(Role::Slider, label).set_value_accesskit(value);
     page.run_steps(2);
     finish(page);
 }
 
 #[test]
-fn each_figure_brings_its_preset_and_is_drawn_with_its_caption() {
+fn each_figure_is_drawn_from_its_own_preset_and_leaves_what_is_set() {
     let mut page = page_of(DESK);
-    for stage in Stage::ALL {
-        let Some(number) = stage.figure() else { continue };
+    slide(&mut page, "Filter length N", 321.0);
+    let set = app(&page).state().scenario.clone();
+    for stage in Stage::PAPER {
         show(&mut page, stage.name());
-        assert_eq!(app(&page).state().preset, number.preset());
+        let Some(number) = stage.figure() else { continue };
         let figures = texts(&page, number.title());
         assert!(figures.iter().any(|label| label.to_lowercase().contains("simulated")), "{stage:?}: {figures:?}");
-        assert!(!texts(&page, &format!("centrode figure {}", number.digit())).is_empty(), "{stage:?}");
+        assert!(!figures.concat().contains("N = 321"), "{stage:?} follows a scenario that is not its own");
+        assert!(!texts(&page, &format!("preset Figure {}, not with what is set", number.digit())).is_empty());
+        let command = texts(&page, &format!("centrode figure {}", number.digit())).concat();
+        assert!(!command.contains("my.toml"), "{command}");
+        assert_eq!((&app(&page).state().scenario, app(&page).state().preset.as_str()), (&set, "bench"));
     }
-    page.get_by_role_and_label(Role::RadioButton, "Robot").click();
+    page.get_by_role_and_label(Role::Tab, "Robot").click();
     page.run_steps(2);
-    assert_eq!(app(&page).state().stage, Stage::Robot);
+    assert_eq!((app(&page).state().stage, &app(&page).state().scenario), (Stage::Robot, &set));
+}
+
+#[test]
+fn a_figures_scenario_is_taken_over_by_one_click_and_then_follows_the_controls() {
+    let mut page = page_of(DESK);
+    show(&mut page, "Figure 8");
+    page.get_by_role_and_label(Role::Button, "Use this scenario").click();
+    page.run_steps(2);
+    finish(&mut page);
+    let state = app(&page).state();
+    assert_eq!((state.stage, state.preset.as_str()), (Stage::Figure8, "figure-8"));
+    assert!(page.query_by_role_and_label(Role::Button, "Use this scenario").is_none());
+    let before = texts(&page, "Fixed centrode deviation").concat();
+    slide(&mut page, "Filter length N", 250.0);
+    let after = texts(&page, "Fixed centrode deviation").concat();
+    assert!(before.contains("N = 500") && after.contains("N = 250"), "{before}\n{after}");
+    assert!(!texts(&page, "preset Figure 8, changed").is_empty());
+    assert!(texts(&page, "centrode figure 8").concat().contains("my.toml"));
+}
+
+#[test]
+fn every_view_is_in_sight_on_every_screen_and_the_paper_opens_where_it_was_left() {
+    for size in [DESK, PHONE, vec2(320.0, 568.0), vec2(844.0, 390.0), vec2(568.0, 320.0), vec2(712.0, 900.0)] {
+        let mut page = page_of(size);
+        let screen = egui::Rect::from_min_size(pos2(0.0, 0.0), size);
+        for section in Section::ALL {
+            let rect = page.get_by_role_and_label(Role::Tab, section.name()).rect();
+            assert!(screen.contains_rect(rect) && rect.width() > 40.0, "{size}: {section:?} at {rect}");
+        }
+        show(&mut page, "Figure 7");
+        show(&mut page, "Map");
+        page.get_by_role_and_label(Role::Tab, "Paper").click();
+        page.run_steps(2);
+        assert_eq!(app(&page).state().stage, Stage::Figure7);
+    }
 }
 
 #[test]
@@ -37,8 +95,7 @@ fn everything_fits_in_every_size() {
     let mut page = page_of(DESK);
     for stage in Stage::ALL.into_iter().filter(|stage| *stage != Stage::Tuning) {
         show(&mut page, stage.name());
-        assert_eq!(app(&page).state().stage, stage);
-        for size in [PHONE, LOW, TABLET, DESK] {
+        for size in [PHONE, LOW, TABLET, vec2(1280.0, 720.0), DESK] {
             page.set_size(size);
             page.run_steps(3);
             fits(&page, size, stage.name());
@@ -49,18 +106,23 @@ fn everything_fits_in_every_size() {
 #[test]
 fn a_preset_of_its_own_takes_a_figure_off_the_stage_and_leaves_the_map() {
     let mut page = page_of(DESK);
-    let choose = |page: &mut Page, name: &str| {
-        page.get_by_role_and_label(Role::ComboBox, "Preset").click();
-        page.run_steps(2);
-        page.get_by_role_and_label(Role::ListBoxOption, name).click();
-        page.run_steps(2);
-    };
     show(&mut page, "Figure 8");
     choose(&mut page, "Paper");
     assert_eq!(app(&page).state().stage, Stage::Robot);
     show(&mut page, "Map");
     choose(&mut page, "Bench");
     assert_eq!(app(&page).state().stage, Stage::Map);
+}
+
+#[test]
+fn table_ii_keeps_its_noise_where_the_page_has_none() {
+    let mut page = page_of(DESK);
+    choose(&mut page, "Figure 4");
+    assert_eq!(app(&page).state().scenario.tracker.position_noise, 0.0, "a preset without noise");
+    show(&mut page, "Table II");
+    let ours = texts(&page, "Simulated by Centrode, disk").concat();
+    assert!(ours.contains("20 / 20") && !ours.contains("± 0.000"), "{ours}");
+    assert!(!texts(&page, "preset Bench, not with what is set").is_empty());
 }
 
 #[test]
@@ -74,6 +136,14 @@ fn table_ii_stands_beside_the_simulated_one() {
     );
     let ours = texts(&page, "Simulated by Centrode, disk 2");
     assert!(ours.iter().any(|row| row.contains("20 / 20")), "{ours:?}");
+    let estimates = page.get_by_label_contains("Estimated places of contact");
+    let (rect, said) = (estimates.rect(), estimates.accesskit_node().label().unwrap_or_default());
+    // 15 rows of the paper, and the runs that found the contact.
+    let found = |row: &String| row.split("Found ").nth(1)?.split(' ').next()?.parse::<usize>().ok();
+    let marks = 15 + texts(&page, "Simulated by Centrode, disk").iter().filter_map(found).sum::<usize>();
+    assert!(said.contains(&format!("{marks} marks")) && marks > 60, "{said}");
+    assert!(said.contains("disk 2 at 15.0 mm: paper "), "{said}");
+    assert!(rect.height() > 120.0 && rect.bottom() < 640.0, "{rect}");
 }
 
 #[test]
@@ -95,25 +165,7 @@ fn a_click_on_the_map_puts_the_contact_there() {
 }
 
 #[test]
-fn a_control_makes_the_work_again() {
-    let mut page = page_of(DESK);
-    show(&mut page, "Figure 8");
-    let before = texts(&page, "Fixed centrode deviation").concat();
-    page.get_by_role_and_label(Role::Slider, "Filter length N").set_value_accesskit(250.0);
-    page.run_steps(2);
-    finish(&mut page);
-    let after = texts(&page, "Fixed centrode deviation").concat();
-    assert!(before.contains("N = 500") && after.contains("N = 250"), "{before}\n{after}");
-}
-
-/// Panics unless `what` is on the stage, and no refusal.
-fn shown(page: &Page, what: &str) {
-    let refusals = texts(page, "cannot be shown");
-    assert!(refusals.is_empty() && !texts(page, what).is_empty(), "{what}: {refusals:?}");
-}
-
-#[test]
-fn odd_scenarios_are_shown() {
+fn odd_scenarios_are_shown_or_refused_in_words() {
     let mut page = page_of(DESK);
     page.get_by_role_and_label(Role::Button, "Motion").click();
     page.run_steps(2);
@@ -121,18 +173,48 @@ fn odd_scenarios_are_shown() {
     {
         show(&mut page, "Map");
         slide(&mut page, label, value);
-        finish(&mut page);
-        shown(&page, "Map of the largest");
         show(&mut page, "Table II");
-        shown(&page, "Simulated by Centrode, disk 1");
     }
-    for stage in Stage::ALL {
-        let Some(number) = stage.figure() else { continue };
+    for stage in Stage::PAPER {
         show(&mut page, stage.name());
+        page.get_by_role_and_label(Role::Button, "Use this scenario").click();
+        page.run_steps(2);
         slide(&mut page, "Contact disk", 0.0);
         slide(&mut page, "θL at the end", 90.0);
-        finish(&mut page);
-        shown(&page, &format!("centrode figure {}", number.digit()));
-        assert_eq!(app(&page).run().plan.scenario(), &app(&page).state().scenario, "{stage:?}");
+        let said = [stage.summary(), "Simulated by Centrode, disk", "cannot be shown"].map(|part| texts(&page, part));
+        assert!(said.iter().any(|labels| !labels.is_empty()), "{stage:?} shows nothing and says nothing");
     }
+}
+
+#[test]
+fn keys_do_nothing_behind_the_help() {
+    let mut page = page_of(DESK);
+    page.get_by_role_and_label(Role::Slider, "Time").set_value_accesskit(5.0);
+    page.run_steps(2);
+    page.get_by_role_and_label(Role::Button, "Help").click();
+    page.run_steps(2);
+    for key in [Key::Space, Key::ArrowRight, Key::Home, Key::End] {
+        page.key_press(key);
+        page.run_steps(2);
+        let state = app(&page).state();
+        assert_eq!((state.help, state.playing, state.time), (true, false, 5.0), "{key:?}");
+    }
+    page.key_press(Key::Escape);
+    page.run_steps(2);
+    page.key_press(Key::ArrowRight);
+    page.run_steps(2);
+    assert_eq!((app(&page).state().help, app(&page).state().time), (false, 5.01));
+}
+
+#[test]
+fn the_clock_shows_the_cursor_of_the_views() {
+    let mut page = page_of(DESK);
+    page.get_by_role_and_label(Role::Button, "Motion").click();
+    page.run_steps(2);
+    slide(&mut page, "Time", 9.5);
+    slide(&mut page, "Run ends", 8.0);
+    let clock = page.get_by_role_and_label(Role::Slider, "Time");
+    let node = clock.accesskit_node();
+    assert_eq!((node.numeric_value(), node.value().as_deref()), (Some(8.0), Some("8.000 s")));
+    assert!(app(&page).report().contains("\"time\":8.0"));
 }

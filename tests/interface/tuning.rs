@@ -11,18 +11,13 @@ use egui_kittest::kittest::Queryable;
 /// A page that has just begun to tune.
 fn page_of(size: Vec2) -> Page {
     let mut page = crate::support::page_of(size);
-    tune(&mut page, size);
+    tune(&mut page);
     page
 }
 
 /// Goes to the tuning view.
-pub fn tune(page: &mut Page, size: Vec2) {
-    page.get_by_role_and_label(Role::ComboBox, "Show").click();
-    page.run_steps(2);
-    // Where the menu is scrolled, the last of it is reached by way of another.
-    page.get_by_role_and_label(Role::ListBoxOption, "Table II").click();
-    page.run_steps(2);
-    page.get_by_role_and_label(Role::RadioButton, if size.x < 560.0 { "Tune" } else { "Tuning" }).click();
+pub fn tune(page: &mut Page) {
+    page.get_by_role_and_label(Role::Tab, "Tuning").click();
     page.run_steps(2);
     assert_eq!(app(page).state().stage, Stage::Tuning);
 }

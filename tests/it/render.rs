@@ -270,6 +270,7 @@ fn any_size_is_drawn_and_nothing_is_drawn_twice() {
             studio: &Studio::DARK,
         };
         let drew = renderer.prepare(device, queue, &mut encoder, &frame);
+        lay(&renderer, device, &mut encoder, ViewId(7));
         queue.submit([encoder.finish()]);
         drew
     };
@@ -280,6 +281,61 @@ fn any_size_is_drawn_and_nothing_is_drawn_twice() {
     assert!(!drawn([64, 64], 0, 2.0));
     assert!(drawn([64, 64], 1, 2.0));
     renderer.forget(ViewId(7));
+    device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
+}
+
+/// Paints a view onto a target that nobody looks at.
+fn lay(renderer: &Renderer, device: &wgpu::Device, encoder: &mut wgpu::CommandEncoder, view: ViewId) {
+    let target = device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width: 8, height: 8, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    let target = target.create_view(&Default::default());
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations::default(),
+        })],
+        ..Default::default()
+    });
+    renderer.paint(&mut pass, view);
+}
+
+#[test]
+fn a_frame_that_was_given_up_is_drawn_again() {
+    let gpu = Gpu::new();
+    let Gpu { device, queue } = &gpu;
+    let mut renderer = Renderer::new(device, FORMAT);
+    let (scene, camera) = bench(Palette::LIGHT);
+    let mut drawn = |given_up: bool| {
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let frame = Frame {
+            view: ViewId(3),
+            size_px: [64, 64],
+            pixels_per_point: 1.0,
+            scene: &scene,
+            scene_version: 1,
+            camera: &camera,
+            studio: &Studio::DARK,
+        };
+        let drew = renderer.prepare(device, queue, &mut encoder, &frame);
+        if !given_up {
+            lay(&renderer, device, &mut encoder, ViewId(3));
+            queue.submit([encoder.finish()]);
+        }
+        drew
+    };
+    assert!(drawn(true), "no surface could be had");
+    assert!(drawn(false), "the picture was never drawn");
+    assert!(!drawn(false));
     device.poll(wgpu::PollType::wait_indefinitely()).unwrap();
 }
 

@@ -239,13 +239,13 @@ fn a_study_made_elsewhere_is_the_study() {
         runs += 1;
         // Answers at odd moments, as they come.
         if runs % 3 == 0 {
-            let answer = Answer::from_bytes(&remote.answer()).expect("an answer");
+            let answer = Answer::from_bytes(&remote.answer().expect("bytes")).expect("an answer");
             assert_eq!(answer.id, 7);
-            answer.tallies.into_iter().for_each(|(batch, tally)| there.set(batch as usize, tally));
+            answer.tallies.into_iter().for_each(|(batch, tally)| assert!(there.set(batch as usize, tally)));
         }
     }
-    let last = Answer::from_bytes(&remote.answer()).expect("an answer");
-    last.tallies.into_iter().for_each(|(batch, tally)| there.set(batch as usize, tally));
+    let last = Answer::from_bytes(&remote.answer().expect("bytes")).expect("an answer");
+    last.tallies.into_iter().for_each(|(batch, tally)| assert!(there.set(batch as usize, tally)));
     assert_eq!(runs, 4 * 5);
     assert_eq!(here, there);
     assert!(Remote::new("{}").is_err() && Answer::from_bytes(b"nonsense").is_err());

@@ -230,14 +230,16 @@ impl Study {
         }
     }
 
-    /// Takes over the tally of one batch that was counted elsewhere. One that does not fit, or says less, is left.
-    pub fn set(&mut self, batch: usize, tally: Tally) {
-        let Some(batch) = self.batches.get_mut(batch) else { return };
+    /// Takes over the tally of one batch that was counted elsewhere, unless it says less. Returns whether it fits: one of
+    /// another batch or of other thresholds is left.
+    pub fn set(&mut self, batch: usize, tally: Tally) -> bool {
+        let Some(batch) = self.batches.get_mut(batch) else { return false };
         let fits =
             Method::ALL.map(|method| method.levels(&batch.levels).len()) == tally.counts.each_ref().map(Vec::len);
         if fits && tally.runs > batch.tally.runs {
             batch.tally = tally;
         }
+        fits
     }
 
     /// The batch to go on with among those wanted, so that cells are known one after the other, each with and without

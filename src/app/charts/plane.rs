@@ -4,7 +4,7 @@ mod flat;
 mod paint;
 mod track;
 
-use crate::app::charts::legend::{Entry, Form, legend, mark};
+use crate::app::charts::legend::{Entry, Form, ROW, legend, mark};
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
@@ -54,7 +54,12 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     );
     if aside {
         data.max.x -= LEGEND;
-        legend(&painter, &theme, pos2(data.right() + 8.0, data.top()), 0.0, &entries);
+        // From the top of all, and closer where the view is low: none is cut.
+        let row = (area.height() / entries.len() as f32).min(ROW);
+        for (k, entry) in entries.iter().enumerate() {
+            let at = pos2(data.right() + 8.0, area.top() + row * k as f32 - 0.5 * (ROW - row));
+            legend(&painter, &theme, at, 0.0, std::slice::from_ref(entry));
+        }
     } else {
         let at = pos2(area.left(), data.top());
         data.min.y += legend(&painter, &theme, at, area.width(), &entries) + 5.0;

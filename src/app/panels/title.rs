@@ -1,4 +1,4 @@
-//! The title bar: name, presets, theme, help.
+//! The two ends of the title bar: name and presets; theme and help.
 
 use egui::{
     Align2, CursorIcon, Popup, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
@@ -6,7 +6,6 @@ use egui::{
 
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::stages::stage::Stage;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::icon::{self, Icon, Look};
@@ -21,21 +20,28 @@ pub fn name(preset: &Preset) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Shows the title bar; `sheet` asks for the button that opens the controls.
-pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
+/// Shows what the page is called and which preset it goes back to.
+pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let narrow = rect.width() < 560.0;
-    let mut left = rect.left_center() + vec2(if narrow { 8.0 } else { 10.0 }, 0.0);
+    let mut left = rect.left_center() + vec2(if rect.width() < 560.0 { 8.0 } else { 10.0 }, 0.0);
     mark(ui, left + vec2(9.0, 0.0), &theme);
     left.x += 26.0;
-    if rect.width() > 460.0 {
+    if rect.width() > 240.0 {
         left.x = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink).right() + 14.0;
     }
-    if rect.width() > 980.0 {
-        let said = "contact detection on a continuum robot";
-        left.x = text::paint(ui, left, Align2::LEFT_CENTER, said, fonts::regular(13.0), theme.dim).right() + 20.0;
-    }
+    let room = (rect.right() - left.x).clamp(72.0, 240.0);
+    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
+    presets(ui, place, state, out);
+}
 
+/// Width that [`tools`] takes, points.
+#[must_use]
+pub fn tools_width(sheet: bool) -> f32 {
+    if sheet { 120.0 } else { 82.0 }
+}
+
+/// Shows theme and help; `sheet` asks for the button that opens the controls.
+pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
     let mut right = rect.right_center() - vec2(20.0, 0.0);
     let mut place = |width: f32| {
         let place = Rect::from_center_size(right, vec2(34.0, 34.0));
@@ -58,37 +64,6 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
         if icon::button(ui, place(38.0), Icon::Controls, "Controls", look).clicked() {
             out.push(Command::ToggleSheet);
         }
-    }
-
-    let side = if narrow { 90.0 } else { 100.0 };
-    let room = (right.x + 4.0 - side - left.x).clamp(72.0, 230.0);
-    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
-    presets(ui, place, state, out);
-    let beside = Rect::from_min_size(place.right_top() + vec2(6.0, 0.0), vec2(side, place.height()));
-    stages(ui, beside, state.stage, out);
-}
-
-/// What stands on the stage, and what else could.
-fn stages(ui: &mut Ui, rect: Rect, stage: Stage, out: &mut Vec<Command>) {
-    let theme = Theme::of(ui);
-    let response = combo(ui, rect, "Show", stage.name(), &theme);
-    let screen = ui.ctx().content_rect();
-    let width = (screen.width() - 40.0).min(420.0);
-    Popup::menu(&response).accessible_name("Show").width(width).show(|ui| {
-        let height = screen.bottom() - rect.bottom() - 40.0;
-        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
-            ui.set_width(width);
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for other in Stage::ALL {
-                if item(ui, other.name(), other.summary(), other == stage, &theme) {
-                    out.push(Command::Show(other));
-                    ui.close();
-                }
-            }
-        });
-    });
-    if !Popup::is_any_open(ui.ctx()) {
-        response.on_hover_text(stage.summary());
     }
 }
 

@@ -21,8 +21,8 @@ pub const FLAT: f32 = 52.0;
 /// Height in two rows, points.
 pub const TALL: f32 = 104.0;
 
-/// Shows playback; in two rows where it is narrow.
-pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Command>) {
+/// Shows playback with the cursor (s) of the views; in two rows where it is narrow.
+pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f64), out: &mut Vec<Command>) {
     let narrow = rect.height() > FLAT + 1.0;
     let size = if narrow { 40.0 } else { 34.0 };
     let y = if narrow { rect.bottom() - 30.0 } else { rect.center().y };
@@ -48,7 +48,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
         out.push(Command::Step(1));
     }
     let theme = Theme::of(ui);
-    let clock = number(state.time, 3);
+    let clock = number(cursor, 3);
     let at = pos2(x + if narrow { 6.0 } else { 12.0 }, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
     let unit = text::paint(
@@ -78,7 +78,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Ve
     } else {
         Rect::from_min_max(pos2(left + 4.0, rect.top() + 8.0), pos2(right, rect.bottom() - 8.0))
     };
-    scrub(ui, track, state, run, out);
+    scrub(ui, track, run, cursor, out);
 }
 
 fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State, out: &mut Vec<Command>) {
@@ -99,17 +99,17 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
     }
 }
 
-fn scrub(ui: &mut Ui, rect: Rect, state: &State, run: &Run, out: &mut Vec<Command>) {
+fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let scenario = run.plan.scenario();
     let rail = Rail { range: (0.0, scenario.motion.end), scale: Scale::Linear(0.001) };
-    let spoken = format!("{} s", number(state.time, 3));
-    let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: state.time, notch: None, on: true };
+    let spoken = format!("{} s", number(cursor, 3));
+    let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: cursor, notch: None, on: true };
     let (response, asked) = slider::sense(ui, rect, &shape);
     if let Some(time) = asked {
         out.push(Command::Seek(time));
     }
-    let time = asked.unwrap_or(state.time);
+    let time = asked.unwrap_or(cursor);
     let (x, y) = (slider::at(rect, rail.place(time)), rect.center().y);
     let at = |time: f64| slider::at(rect, rail.place(time));
     let (start, end) = slider::way(rect);

@@ -67,7 +67,7 @@ fn words(ui: &mut Ui, rect: Rect, figure: &Figure, inputs: &Inputs<'_>, theme: &
 /// The command that writes this figure to a file.
 fn command(inputs: &Inputs<'_>) -> String {
     let digit = inputs.stage.figure().map_or(0, |number| number.digit());
-    let changed = inputs.base.1 != inputs.run.plan.scenario();
+    let changed = inputs.source.is_some_and(|source| source.changed);
     let scenario = if changed { " my.toml" } else { "" };
     let file = format!("centrode figure {digit}{scenario} --out figure-{digit}.svg");
     if changed { format!("{file}   (my.toml: this scenario)") } else { file }

@@ -1,4 +1,4 @@
-//! What the large part of the page shows: the robot, or something of the paper.
+//! What the large part of the page shows: the robot, something of the paper, the map or the tuning.
 
 use centrode_core::study::figure::Number;
 use serde::{Deserialize, Serialize};
@@ -28,6 +28,46 @@ pub enum Stage {
     Tuning,
 }
 
+/// The views of the bar; each has one stage or, the paper, several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Section {
+    /// The robot.
+    Robot,
+    /// Figures and Table II.
+    Paper,
+    /// The map.
+    Map,
+    /// The tuning.
+    Tuning,
+}
+
+impl Section {
+    /// All of them, in the order offered.
+    pub const ALL: [Self; 4] = [Self::Robot, Self::Paper, Self::Map, Self::Tuning];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Robot => "Robot",
+            Self::Paper => "Paper",
+            Self::Map => "Map",
+            Self::Tuning => "Tuning",
+        }
+    }
+
+    /// What it shows, in a line.
+    #[must_use]
+    pub fn summary(self) -> &'static str {
+        match self {
+            Self::Robot => Stage::Robot.summary(),
+            Self::Paper => "Five figures of the paper and its Table II, simulated here",
+            Self::Map => Stage::Map.summary(),
+            Self::Tuning => Stage::Tuning.summary(),
+        }
+    }
+}
+
 impl Stage {
     /// All of them, in the order offered.
     pub const ALL: [Self; 9] = [
@@ -41,6 +81,30 @@ impl Stage {
         Self::Map,
         Self::Tuning,
     ];
+
+    /// Those of the paper.
+    pub const PAPER: [Self; 6] =
+        [Self::Figure3, Self::Figure4, Self::Figure6, Self::Figure7, Self::Figure8, Self::Table2];
+
+    /// The view that it belongs to.
+    #[must_use]
+    pub fn section(self) -> Section {
+        match self {
+            Self::Robot => Section::Robot,
+            Self::Map => Section::Map,
+            Self::Tuning => Section::Tuning,
+            _ => Section::Paper,
+        }
+    }
+
+    /// Name of the preset that it is made with, whatever the page is set to; none for what shows the page's scenario.
+    #[must_use]
+    pub fn own_preset(self) -> Option<&'static str> {
+        match self {
+            Self::Table2 => Some("bench"),
+            _ => self.figure().map(Number::preset),
+        }
+    }
 
     /// The figure it is, if it is one.
     #[must_use]
@@ -77,10 +141,8 @@ impl Stage {
         match (self, self.figure()) {
             (_, Some(number)) => number.title(),
             (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
-            (Self::Map, _) => {
-                "Which contacts are detectable: the largest thresholds that detect them, by place and bend"
-            }
-            (Self::Tuning, _) => "Thresholds and filters: false alarms against delay, from repeated runs",
+            (Self::Map, _) => "Which contacts are detectable: the largest thresholds that find them, by place and bend",
+            (Self::Tuning, _) => "Choose thresholds and filter: false alarms against delay, from repeated runs",
             _ => "The robot as it bends, and its centrodes in the bending plane",
         }
     }

@@ -5,7 +5,7 @@ use centrode_core::scenario::Scenario;
 use centrode_core::scenario::{Contact, Place};
 use centrode_core::study::figure::{Figure, FigureJob};
 use centrode_core::study::map::{Map, MapJob};
-use centrode_core::study::table2::{Table2, Table2Job};
+use centrode_core::study::table2::{Row, Table2, Table2Job};
 use centrode_core::study::{Job, Progress};
 
 /// Repeats of each disk in the simulated Table II.
@@ -20,8 +20,8 @@ const ROWS: usize = 9;
 pub enum Found {
     /// A figure.
     Figure(Figure),
-    /// Both tables.
-    Table(Box<Table2>),
+    /// Both tables, and the experiments behind the simulated one.
+    Table(Box<Table2>, Vec<Row>),
     /// The map.
     Map(Map),
 }
@@ -63,7 +63,7 @@ impl Work {
     fn found(&self) -> Found {
         match self {
             Self::Figure(job) => Found::Figure(job.figure()),
-            Self::Table(job) => Found::Table(Box::new(job.table())),
+            Self::Table(job) => Found::Table(Box::new(job.table()), job.rows().to_vec()),
             Self::Map(job) => Found::Map(job.map().clone()),
         }
     }

@@ -1,13 +1,15 @@
-//! Table II twice: the paper's, and the simulated one.
+//! Table II twice: the paper's, and the simulated one; and every estimate behind both.
+
+mod estimates;
 
 use crate::app::charts::notation::{job, number};
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use centrode_core::study::table2::{Disk, Statistic, Table2};
+use centrode_core::study::table2::{Disk, Row, Statistic, Table2};
 use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.
-const BESIDE: f32 = 1000.0;
+const BESIDE: f32 = 900.0;
 const ROW: f32 = 32.0;
 
 /// One column: head, unit, and what stands in it.
@@ -49,8 +51,8 @@ const COLUMNS: [Column; 6] = [
     },
 ];
 
-/// Shows both tables.
-pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2) {
+/// Shows both tables, and the estimates of `rows` (the simulated experiments) against the truth.
+pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2, rows: &[Row]) {
     let theme = Theme::of(ui);
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("table"));
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
@@ -79,10 +81,18 @@ pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2) {
                 ui.add_space(14.0);
             }
         }
-        ui.add_space(12.0);
+        ui.add_space(16.0);
         let said = "± is the standard deviation over repeats. The paper does not say when contact began nor in how many repeats it \
             was missed: each of its rows counts as found. The simulation holds the part below the beam still; the real segment buckled.";
-        ui.add(Label::new(job(said, 12.0, theme.dim)).wrap());
+        let mut said = job(said, 12.0, theme.dim);
+        said.wrap.max_width = ui.available_width();
+        // The picture has what the words leave.
+        let used = ui.cursor().top() - ui.min_rect().top() + ui.painter().layout_job(said.clone()).size().y + 16.0;
+        let height = (rect.height() - used).max(estimates::LEAST);
+        let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
+        estimates::estimates(ui, place, shown, rows);
+        ui.add_space(8.0);
+        ui.add(Label::new(said).wrap());
     });
 }
 
@@ -92,7 +102,7 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
     ui.add(Label::new(job(below, 12.0, theme.dim)).wrap());
     ui.add_space(8.0);
     let narrow = width < 430.0;
-    let size = if narrow { 12.0 } else { 13.5 };
+    let size = if narrow { 12.0 } else { 12.5 + ((width - 450.0) / 60.0).clamp(0.0, 1.0) };
     let (head, _) = ui.allocate_exact_size(vec2(width, 36.0), Sense::hover());
     cells(head, |column, right| {
         for (k, (text, color)) in [(column.head, theme.ink), (column.unit, theme.dim)].into_iter().enumerate() {

@@ -1,10 +1,9 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
-use centrode_core::scenario::Place;
-use centrode_core::scenario::Scenario;
+use centrode_core::scenario::{Place, Scenario, Threshold};
 use centrode_core::study::tuning::remote::{Answer, Request};
 use centrode_core::study::tuning::watch::Method;
-use centrode_core::study::tuning::{Point, Spec, Study};
+use centrode_core::study::tuning::{Point, Spec, Study, xi1_setting};
 use centrode_core::study::{Job, Progress};
 use serde_json::{Value, json};
 
@@ -29,8 +28,8 @@ pub trait Helper: std::fmt::Debug {
     /// The answers (see [`Answer`]) that have come since this was last called.
     fn take(&mut self) -> Vec<Vec<u8>>;
 
-    /// Whether it can be relied on. Once it says no, the rest is made here.
-    fn works(&self) -> bool;
+    /// Why it can no longer be relied on, if so. The rest is made here then.
+    fn failure(&self) -> Option<String>;
 }
 
 /// What the study compares, by cell.
@@ -56,6 +55,10 @@ pub struct Tuner {
     held: bool,
     version: u64,
     refused: Option<String>,
+    /// ξ2 that is set, m. No part of the study, which judges every run by a whole row of thresholds: moving it costs no run.
+    xi2: Option<f64>,
+    /// Why the helper was given up.
+    trouble: Option<String>,
 }
 
 impl Tuner {
@@ -72,6 +75,8 @@ impl Tuner {
             held: false,
             version: 0,
             refused: None,
+            xi2: None,
+            trouble: None,
         }
     }
 
@@ -83,13 +88,20 @@ impl Tuner {
             }
             return;
         };
-        if self.inputs.as_ref().is_some_and(|(was, count)| was == scenario && *count == repeats) {
+        let xi2 = scenario.detection.xi2.value();
+        if self.xi2 != xi2 {
+            self.xi2 = xi2;
+            self.version += 1;
+        }
+        let mut scenario = scenario.clone();
+        scenario.detection.xi2 = Threshold::OFF;
+        if self.inputs.as_ref().is_some_and(|(was, count)| *was == scenario && *count == repeats) {
             return;
         }
         // Whoever comes back finds a study held as it was left; a new one begins.
         let back = self.inputs.replace((scenario.clone(), repeats)).is_none();
         self.held &= back;
-        let (spec, cells) = spec(scenario, repeats);
+        let (spec, cells) = spec(&scenario, repeats);
         let old = self.study.take();
         match Study::new(spec) {
             Ok(mut study) => {
@@ -135,24 +147,35 @@ impl Tuner {
     pub fn work(&mut self, frame: f32) -> bool {
         let Some((study, _)) = self.study.as_mut().filter(|_| self.inputs.is_some()) else { return false };
         let before = study.progress();
+        let mut failure = None;
         if let Some(helper) = &mut self.helper {
-            for answer in helper.take().iter().filter_map(|bytes| Answer::from_bytes(bytes).ok()) {
-                if answer.id == self.request {
-                    answer.tallies.into_iter().for_each(|(batch, tally)| study.set(batch as usize, tally));
+            for answer in helper.take() {
+                match Answer::from_bytes(&answer) {
+                    Ok(answer) if answer.id != self.request => {}
+                    Ok(answer) => {
+                        let mut tallies = answer.tallies.into_iter();
+                        if !tallies.all(|(batch, tally)| study.set(batch as usize, tally)) {
+                            failure = Some("its answer belongs to another study".into());
+                        }
+                    }
+                    Err(error) => failure = Some(format!("its answer cannot be read: {error}")),
                 }
             }
-            if !helper.works() {
-                self.helper = None;
-            }
+            failure = helper.failure().or(failure);
         }
         let mut busy = false;
-        if !self.held && !study.progress().is_complete() {
+        if !self.held && failure.is_none() && !study.progress().is_complete() {
             match &mut self.helper {
                 Some(helper) if !self.asked => {
                     self.request += 1;
                     let request = Request { id: self.request, spec: study.spec().clone(), batches: study.missing() };
-                    helper.ask(Some(&serde_json::to_string(&request).unwrap_or_default()));
-                    self.asked = true;
+                    match serde_json::to_string(&request) {
+                        Ok(request) => {
+                            helper.ask(Some(&request));
+                            self.asked = true;
+                        }
+                        Err(error) => failure = Some(format!("it cannot be asked: {error}")),
+                    }
                 }
                 Some(_) => {}
                 None => {
@@ -168,7 +191,20 @@ impl Tuner {
                 self.before = None;
             }
         }
-        busy && !study.progress().is_complete()
+        let left = !study.progress().is_complete();
+        if let Some(failure) = failure {
+            self.give_up(failure);
+            return left && !self.held;
+        }
+        busy && left
+    }
+
+    /// Does without the helper from now on.
+    fn give_up(&mut self, why: String) {
+        self.rest();
+        self.helper = None;
+        self.trouble = Some(why);
+        self.version += 1;
     }
 
     /// What there is to see, what its cells are, and a number that changes with both.
@@ -208,11 +244,33 @@ impl Tuner {
         self.refused.as_deref()
     }
 
-    /// What the thresholds that are set come to.
+    /// Why the helper was given up, if it was.
+    #[must_use]
+    pub fn trouble(&self) -> Option<&str> {
+        self.trouble.as_deref()
+    }
+
+    /// The threshold of a method that is set, m, N·m, or k; none while it is switched off.
+    #[must_use]
+    pub fn setting(&self, method: Method) -> Option<f64> {
+        let (study, _, _) = self.shown()?;
+        if method == Method::Jfd { xi1_setting(&study.cells()[0].scenario) } else { self.xi2 }
+    }
+
+    /// The level whose counts stand for the threshold that is set: the nearest one.
+    #[must_use]
+    pub fn level(&self, method: Method) -> Option<usize> {
+        let (study, _, _) = self.shown()?;
+        let (setting, levels) = (self.setting(method)?, study.levels(0, method));
+        let away = |level: &usize| (levels[*level] - setting).abs();
+        (0..levels.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
+
+    /// What the thresholds that are set come to; between two levels, what the nearest comes to.
     #[must_use]
     pub fn own(&self, method: Method) -> Option<Point> {
         let (study, _, _) = self.shown()?;
-        Some(study.point(0, method, study.own(0, method)?))
+        Some(study.point(0, method, self.level(method)?))
     }
 
     /// The same as JSON for whoever reads the page without eyes, with the progress in runs.
@@ -270,7 +328,6 @@ fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_core::scenario::Threshold;
     use centrode_core::scenario::preset::find;
     use centrode_core::study::tuning::remote::Remote;
     use std::cell::RefCell;
@@ -282,6 +339,7 @@ mod tests {
         remote: Option<Remote>,
         asked: usize,
         broken: bool,
+        babbles: bool,
     }
 
     #[derive(Debug, Clone, Default)]
@@ -296,15 +354,16 @@ mod tests {
 
         fn take(&mut self) -> Vec<Vec<u8>> {
             let mut desk = self.0.borrow_mut();
+            let babbles = desk.babbles;
             let remote = desk.remote.as_mut();
             remote.map_or_else(Vec::new, |remote| {
                 let _ = (0..7).filter(|_| remote.step()).count();
-                vec![remote.answer()]
+                vec![if babbles { vec![0xff; 9] } else { remote.answer().expect("bytes") }]
             })
         }
 
-        fn works(&self) -> bool {
-            !self.0.borrow().broken
+        fn failure(&self) -> Option<String> {
+            self.0.borrow().broken.then(|| "it is gone".into())
         }
     }
 
@@ -341,6 +400,40 @@ mod tests {
         near.0.borrow_mut().broken = true;
         finish(&mut tuner);
         assert!(!tuner.has_helper());
+        assert_eq!(tuner.trouble(), Some("it is gone"));
+    }
+
+    #[test]
+    fn an_answer_that_cannot_be_read_ends_the_helper_and_not_the_study() {
+        let near = Near::default();
+        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
+        tuner.update(Some(&bench()), 3);
+        tuner.work(0.0);
+        near.0.borrow_mut().babbles = true;
+        assert!(tuner.work(0.0), "the next frame goes on with it");
+        assert!(tuner.trouble().is_some_and(|why| why.contains("cannot be read")), "{:?}", tuner.trouble());
+        assert!(near.0.borrow().remote.is_none(), "the helper was told to stop");
+        finish(&mut tuner);
+        assert_eq!((tuner.has_helper(), tuner.left()), (false, None));
+    }
+
+    #[test]
+    fn a_dragged_threshold_keeps_every_run() {
+        let near = Near::default();
+        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
+        let mut scenario = bench();
+        tuner.update(Some(&scenario), 3);
+        finish(&mut tuner);
+        let asked = near.0.borrow().asked;
+        for k in 0..50 {
+            let xi2 = 0.004_03 + 0.000_113 * f64::from(k);
+            scenario.detection.xi2 = Threshold::On(xi2);
+            tuner.update(Some(&scenario), 3);
+            assert_eq!((tuner.left(), near.0.borrow().asked), (None, asked), "{xi2} m");
+            assert_eq!(tuner.setting(Method::Fcd), Some(xi2));
+            let counted = tuner.own(Method::Fcd).expect("a point").threshold;
+            assert!((counted - xi2).abs() <= 0.000_05 + 1e-9, "{counted} m for {xi2} m");
+        }
     }
 
     #[test]

@@ -14,15 +14,13 @@ use crate::app::stages::Inputs;
 use crate::app::stages::tuner::Cells;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
+use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Method;
 use centrode_core::study::tuning::{Point, Study};
-use egui::{
-    Align2, Color32, CursorIcon, Label, Pos2, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui,
-    WidgetInfo, pos2, vec2,
-};
+use egui::{Align2, Color32, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
 use lengths::Picture;
 
 /// From this width on the pictures stand two by two.
@@ -79,6 +77,7 @@ struct Derived {
     tuning: Tuning,
     curves: [Vec<Point>; 4],
     own: [Option<usize>; 4],
+    settings: [Option<f64>; 4],
     verdict: Verdict,
 }
 
@@ -107,6 +106,11 @@ impl View<'_> {
         self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
     }
 
+    /// The threshold that is set; [`Self::own`] is what the nearest one that was counted comes to.
+    fn setting(&self) -> Option<f64> {
+        self.derived.settings[self.tuning.method as usize]
+    }
+
     /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
     fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
         let method = self.tuning.method;
@@ -126,7 +130,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
     let Some((study, cells, version)) = inputs.tuner.shown() else { return };
     let TuningState { derived, picture } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
-        *derived = Some(derive(study, cells, version, inputs.tuning));
+        *derived = Some(derive(study, cells, version, inputs));
     }
     let Some(derived) = derived else { return };
     let view = View { study, cells, tuning: inputs.tuning, derived, theme };
@@ -138,6 +142,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
         let top = ui.cursor().top();
         choices(ui, &view, inputs, beside, out);
         sentences(ui, &view, inputs, out);
+        trouble(ui, inputs, &theme);
         ui.add_space(2.0);
         let used = ui.cursor().top() - top;
         let (columns, rows) = if beside { (2, 2) } else { (1, 4) };
@@ -176,7 +181,8 @@ fn command(inputs: &Inputs<'_>) -> String {
     )
 }
 
-fn derive(study: &Study, cells: &Cells, version: u64, tuning: Tuning) -> Derived {
+fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> Derived {
+    let (tuner, tuning) = (inputs.tuner, inputs.tuning);
     let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
     // Joint forces are not filtered: one length says it all.
     let lengths =
@@ -185,7 +191,8 @@ fn derive(study: &Study, cells: &Cells, version: u64, tuning: Tuning) -> Derived
         version,
         tuning,
         curves: Method::ALL.map(|method| study.curve(0, method)),
-        own: Method::ALL.map(|method| study.own(0, method)),
+        own: Method::ALL.map(|method| tuner.level(method)),
+        settings: Method::ALL.map(|method| tuner.setting(method)),
         verdict: recommend_among(study, lengths, &wish),
     }
 }
@@ -248,19 +255,6 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
     }
 }
 
-fn button(ui: &mut Ui, rect: Rect, label: &str, theme: &Theme) -> bool {
-    let id = ui.make_persistent_id(("button", label));
-    let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
-    let warm = if response.hovered() { 0.08 } else { 0.0 };
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
-    let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
-    ui.painter().rect(rect, 7.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
-    let font = fonts::strong(12.5);
-    paint(ui, rect.center(), Align2::CENTER_CENTER, label, font, theme.accent);
-    response.clicked()
-}
-
 /// What is set now, and what should be.
 fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let now = words::now(view);
@@ -284,6 +278,14 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
             }
         }
     });
+}
+
+/// Says that the page makes the runs because its helper could not.
+fn trouble(ui: &mut Ui, inputs: &Inputs<'_>, theme: &Theme) {
+    if let Some(why) = inputs.tuner.trouble() {
+        let said = format!("The worker failed ({why}). The page makes the runs itself, between its frames.");
+        ui.add(Label::new(job(&said, 12.0, theme.error)).wrap());
+    }
 }
 
 /// Where a click or a drag takes something. A finger drags what it holds, `near` where that is, and scrolls the page from

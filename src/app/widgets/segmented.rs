@@ -6,8 +6,31 @@ use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 
+/// One option.
+#[derive(Debug, Clone, Copy)]
+pub struct Segment<'a> {
+    /// What is written on it.
+    pub text: &'a str,
+    /// Its name to assistive technology.
+    pub name: &'a str,
+    /// What it is for, shown under the pointer; nothing when empty.
+    pub hint: &'a str,
+}
+
 /// Shows the options side by side; returns the one that was clicked.
 pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen: usize) -> Option<usize> {
+    let options: Vec<_> = options.iter().map(|text| Segment { text, name: text, hint: "" }).collect();
+    segments(ui, rect, (label, Role::RadioButton), &options, chosen)
+}
+
+/// The same, with what each option is to assistive technology.
+pub fn segments(
+    ui: &mut Ui,
+    rect: Rect,
+    (label, role): (&str, Role),
+    options: &[Segment<'_>],
+    chosen: usize,
+) -> Option<usize> {
     let theme = Theme::of(ui);
     ui.painter().rect_filled(rect, 7.0, theme.raised);
     let width = rect.width() / options.len().max(1) as f32;
@@ -17,7 +40,7 @@ pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen:
         let id = ui.make_persistent_id(("segment", label, i));
         let response = ui.interact(part, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
         let held = i == chosen;
-        response.widget_info(|| WidgetInfo::selected(Role::RadioButton, ui.is_enabled(), held, option));
+        response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), held, option.name));
         if held {
             let fill = if theme.dark { theme.faint } else { theme.panel };
             ui.painter().rect(part, 5.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
@@ -27,9 +50,12 @@ pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen:
         }
         let ink = if held || response.hovered() { theme.ink } else { theme.dim };
         let font = if held { fonts::strong(12.5) } else { fonts::regular(12.5) };
-        text::paint(ui, part.center(), Align2::CENTER_CENTER, option, font, ink);
+        text::paint(ui, part.center(), Align2::CENTER_CENTER, option.text, font, ink);
         if response.clicked() {
             clicked = Some(i);
+        }
+        if !option.hint.is_empty() {
+            response.on_hover_text(option.hint);
         }
     }
     clicked

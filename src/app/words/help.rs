@@ -34,9 +34,9 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
     (
         "The paper on the page",
-        "The page also shows figures of the paper, its Table II and a map, and computes them anew as you move the controls. All of it is simulated here and says so; only the \
-         columns headed as the paper's hold its measurements. The map shows which contacts are detectable: for each place and bend at contact, the largest thresholds that still detect it. \
-         Click on it to put the contact there.",
+        "The view Paper shows five figures of the paper and its Table II, simulated here; only the columns headed as the paper's hold its measurements. Each is made with a preset of its own, whatever \
+         is set on this page; “Use this scenario” loads that preset, and the figure then follows the controls. The map shows which contacts are detectable: for each place and bend at contact, the \
+         largest thresholds that still detect it. Click on it to put the contact there.",
     ),
     (
         "Tuning",

@@ -16,8 +16,10 @@ const PATIENCE: Duration = Duration::from_secs(150);
 pub struct Options {
     /// Width and height in CSS pixels.
     pub size: [u32; 2],
-    /// Device pixels per CSS pixel.
+    /// Device pixels per CSS pixel of the screen.
     pub scale: f64,
+    /// The same as developer tools emulate it, on a screen that has `scale`.
+    pub emulated: Option<f64>,
     /// A phone: touch, and its viewport rules.
     pub phone: bool,
     /// The person prefers dark colours.
@@ -28,7 +30,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { size: [1280, 800], scale: 1.0, phone: false, dark: false, still: false }
+        Self { size: [1280, 800], scale: 1.0, emulated: None, phone: false, dark: false, still: false }
     }
 }
 
@@ -118,10 +120,16 @@ impl Page {
             "Emulation.setDeviceMetricsOverride",
             json!({
                 "width": size[0], "height": size[1],
-                // As the browser was started: emulated, it would not reach a canvas's device pixels.
-                "deviceScaleFactor": 0, "mobile": self.options.phone,
+                // 0: as the browser was started.
+                "deviceScaleFactor": self.options.emulated.unwrap_or(0.0), "mobile": self.options.phone,
             }),
         );
+    }
+
+    /// Emulates another number of device pixels per CSS pixel.
+    pub fn emulate(&mut self, ratio: f64) {
+        self.options.emulated = Some(ratio);
+        self.resize(self.options.size);
     }
 
     /// Asks until there is an answer; `what` is for the failure's message.

@@ -68,11 +68,12 @@ impl Remote {
     }
 
     /// What has grown since the last answer, as bytes.
-    #[must_use]
-    pub fn answer(&mut self) -> Vec<u8> {
+    ///
+    /// # Errors
+    /// When it cannot be written, which only a type of unknown length could cause, of which an answer has none.
+    pub fn answer(&mut self) -> Result<Vec<u8>, String> {
         let tally = |batch: usize| (batch as u32, self.study.batches()[batch].tally.clone());
         let tallies = std::mem::take(&mut self.grown).into_iter().map(tally).collect();
-        // Fails only for types of unknown length, of which an answer has none.
-        postcard::to_allocvec(&Answer { id: self.id, tallies }).unwrap_or_default()
+        postcard::to_allocvec(&Answer { id: self.id, tallies }).map_err(|error| error.to_string())
     }
 }

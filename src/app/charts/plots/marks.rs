@@ -1,5 +1,7 @@
 //! What happened when: arming, contact, crossings, the detection.
 
+use std::sync::Arc;
+
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::{Axis, rounded};
@@ -7,7 +9,7 @@ use crate::app::charts::plots::frame::{Frame, SMALL, TEXT};
 use crate::app::command::Command;
 use centrode_core::detect::{Crossing, Method};
 use centrode_core::run::Run;
-use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, CursorIcon, FontId, Galley, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 /// Half the width in which the arming edge can be grabbed, points.
 const GRAB: f32 = 7.0;
@@ -74,15 +76,22 @@ impl View<'_> {
         for dx in [-1.0, 1.0] {
             painter.vline(x + dx, y - 3.5..=y + 3.5, Stroke::new(1.0, color));
         }
-        let text = format!("armed from {} s", number(armed_from, 2));
         if self.which == 0 || strong {
-            let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL), color);
-            let left = x - 8.0 - galley.size().x;
-            let at = if left > data.left() + 2.0 { left } else { x + 8.0 };
-            let rect = Rect::from_min_size(pos2(at, y - 0.5 * galley.size().y), galley.size());
+            let (galley, rect) = self.armed_label(painter, color);
             painter.rect_filled(rect.expand(2.0), 3.0, theme.panel.gamma_multiply(0.85));
             painter.galley(rect.min, galley, color);
         }
+    }
+
+    /// When arming is, in words beside its edge, and where they stand.
+    fn armed_label(&self, painter: &Painter, color: Color32) -> (Arc<Galley>, Rect) {
+        let (data, x) = (self.frame.data, self.armed_at());
+        let text = format!("armed from {} s", number(self.run.plan.scenario().detection.armed_from, 2));
+        let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL), color);
+        let left = x - 8.0 - galley.size().x;
+        let at = if left > data.left() + 2.0 { left } else { x + 8.0 };
+        let rect = Rect::from_min_size(pos2(at, data.top() + 22.0 - 0.5 * galley.size().y), galley.size());
+        (galley, rect)
     }
 
     /// The truth: a band along the axis while the beam holds the backbone.
@@ -115,9 +124,10 @@ impl View<'_> {
         let x = self.frame.time.at(detection.time);
         let text = format!("detected {}", Frame::clock(detection.time));
         let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL + 0.5), theme.detection);
-        let right = x + 8.0 + galley.size().x <= data.right();
-        let at = if right { x + 8.0 } else { x - 8.0 - galley.size().x };
-        let rect = Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size());
+        let right = x + 6.0 + galley.size().x <= data.right() + 4.0;
+        let at = if right { x + 6.0 } else { x - 8.0 - galley.size().x };
+        let armed = self.armed_label(painter, theme.dim).1.expand2(vec2(3.0, 1.0));
+        let rect = above(Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size()), armed);
         painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 3.0, theme.panel.gamma_multiply(0.9));
         painter.galley(rect.min, galley, theme.detection);
     }
@@ -168,6 +178,15 @@ fn mark(painter: &Painter, at: Pos2, method: Method, first: bool, color: Color32
     }
 }
 
+/// A label where it is wanted, or above another that it would cover: below, a threshold may be in the way.
+fn above(label: Rect, other: Rect) -> Rect {
+    if label.expand2(vec2(3.0, 1.0)).intersects(other) {
+        label.translate(vec2(0.0, other.top() - 1.0 - label.bottom()))
+    } else {
+        label
+    }
+}
+
 /// Times during which the beam holds the backbone, s.
 #[must_use]
 pub fn contacts(run: &Run) -> Vec<(f64, f64)> {
@@ -197,6 +216,17 @@ mod tests {
 
     fn run(name: &str) -> Run {
         simulate(&preset::find(name).and_then(preset::Preset::scenario).expect("preset")).expect("run")
+    }
+
+    #[test]
+    fn labels_do_not_cover_each_other() {
+        let other = Rect::from_min_size(pos2(100.0, 15.0), vec2(90.0, 14.0));
+        for left in [0.0, 50.0, 150.0, 188.0, 240.0] {
+            let label = Rect::from_min_size(pos2(left, 11.0), vec2(80.0, 13.0));
+            let placed = above(label, other);
+            assert!(!placed.intersects(other), "{placed}");
+            assert_eq!(placed == label, left < 15.0 || left > 195.0, "{left}");
+        }
     }
 
     #[test]

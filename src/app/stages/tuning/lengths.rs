@@ -85,7 +85,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
         clip.circle_stroke(at, 7.5, Stroke::new(4.0, Color32::from_black_alpha(140)));
         clip.circle_stroke(at, 7.5, Stroke::new(2.2, Color32::WHITE));
     }
-    let own = view.own().and_then(|point| place(view.study.cells()[0].scenario.filter.length, point.threshold));
+    let own = view.setting().and_then(|xi| place(view.study.cells()[0].scenario.filter.length, xi));
     if let Some(at) = own {
         clip.circle(at, 5.0, theme.detection, Stroke::new(1.5, Color32::WHITE));
     }
@@ -142,7 +142,7 @@ fn paint(ui: &Ui, view: &View<'_>, key: (u64, u64, usize), named: &Named) -> Pic
     let known = |row: usize| cells.iter().map(move |(_, cell)| delay(view, *cell, row as f64 * step));
     let rows: Vec<Vec<Option<(f64, bool)>>> = (1..=ROWS[1]).map(|row| known(row).collect()).collect();
     let last = rows.iter().rposition(|row| row.iter().any(Option::is_some)).unwrap_or(0);
-    let own = view.own().map_or(0, |point| (point.threshold / step).ceil() as usize);
+    let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
     let count = (last + last / 8).max(own + own / 8).clamp(ROWS[0], ROWS[1]);
     let ground = Color32::TRANSPARENT;
     let pixels = rows[..count].iter().rev().flatten().map(|known| {

@@ -36,10 +36,14 @@ fn place(view: &View<'_>) -> String {
 /// What the thresholds that are set achieve.
 pub fn now(view: &View<'_>) -> String {
     let named = Named::of(view.tuning.method, view.study);
-    let Some(point) = view.own() else {
+    let (Some(point), Some(threshold)) = (view.own(), view.setting()) else {
         return format!("{} is off, so nothing is detected.", named.symbol);
     };
-    let setting = setting(&named, point.threshold);
+    let mut setting = setting(&named, threshold);
+    if point.threshold != threshold {
+        let counted = digits(&named, point.threshold);
+        setting += format!(" (counted at {counted} {})", named.unit).replace(" )", ")").as_str();
+    }
     let alarms = &point.false_alarms.rate;
     if alarms.of == 0 {
         return "Making the first runs …".into();
