@@ -17,9 +17,11 @@ pub mod watch;
 use super::seed::repeat_seed;
 use super::truth::contact_sample;
 use super::{Job, Progress};
+use crate::scenario::keys::allowed::NOT_NEGATIVE;
+use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::text::Draft;
 use crate::scenario::{Place, Threshold};
-use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use levels::Levels;
 use serde::{Deserialize, Serialize};
 use tally::{Clock, Detection, FalseAlarms, Tally, detection, false_alarms};
@@ -96,14 +98,12 @@ impl Study {
     /// # Errors
     /// When a cell's scenario is impossible, or a number of the spec is.
     pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
-        let refusal =
-            |key: &str, value: String, allowed: String| Err(ScenarioError::Value { key: key.into(), value, allowed });
         if !(1..=MAX_REPEATS).contains(&spec.repeats) {
-            let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
-            return refusal("repeats", spec.repeats.to_string(), allowed);
+            let allowed = Allowed::Whole(1, MAX_REPEATS as u64);
+            return Err(Refused::error("repeats", Quantity::Count, Value::Whole(spec.repeats as u64), allowed));
         }
-        if !(spec.late >= 0.0 && spec.late.is_finite()) {
-            return refusal("late", spec.late.to_string(), "a finite time, 0 s or more".into());
+        if !NOT_NEGATIVE.has(spec.late) {
+            return Err(Refused::error("late", Quantity::Time, Value::Number(spec.late), NOT_NEGATIVE));
         }
         let mut study = Self { batches: Vec::new(), cells: Vec::new(), spec };
         for set in study.spec.cells.clone() {
