@@ -206,7 +206,7 @@ fn impossible_specs_are_refused() {
     let spec = study(&Scenario::default(), 1, &[&[]]).spec().clone();
     let told = |spec: Spec| Study::new(spec).expect_err("refused").to_string();
     assert!(told(Spec { repeats: 0, ..spec.clone() }).contains("repeats = 0"));
-    assert!(told(Spec { late: f64::NAN, ..spec.clone() }).contains("late = nan"));
+    assert!(told(Spec { late: f64::NAN, ..spec.clone() }).contains("late = NaN"));
     let cells = vec![vec!["contact.disk=9".to_string()]];
     assert!(told(Spec { cells, ..spec.clone() }).contains("contact.disk = 9"));
     let mut scenario = Scenario::default();

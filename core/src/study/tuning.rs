@@ -103,7 +103,7 @@ impl Study {
             return Err(Refused::error("repeats", Quantity::Count, Value::Whole(spec.repeats as u64), allowed));
         }
         if !NOT_NEGATIVE.has(spec.late) {
-            return Err(Refused::error("late", Quantity::Time, Value::Number(spec.late), NOT_NEGATIVE));
+            return Err(Refused::error("late", Quantity::Time, Value::Other(spec.late.to_string()), NOT_NEGATIVE));
         }
         let mut study = Self { batches: Vec::new(), cells: Vec::new(), spec };
         for set in study.spec.cells.clone() {
