@@ -25,8 +25,9 @@ use egui::{Rect, Ui, vec2};
 
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::keys::find;
 use centrode_core::scenario::preset::Preset;
-use centrode_core::scenario::{Contact, Place, Start, Threshold, Xi1Rule};
+use centrode_core::scenario::{Contact, Place, Start, Xi1Rule};
 use centrode_core::study::tuning::watch::Method;
 use charts::plane;
 use charts::plots::{self, PlotState};
@@ -213,6 +214,7 @@ impl App {
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
+        self.plots.otherwise = ["detection.xi2", "detection.xi1"].map(|key| self.state.otherwise_si(key, &self.base));
         let Self {
             state,
             base,
@@ -233,7 +235,7 @@ impl App {
         panels::views::views(ui, layout.views, state.stage, state.paper, out);
         panels::title::tools(ui, layout.tools, state, layout.sheet, out);
         if let Some(rect) = layout.controls {
-            let refusal = memo.refusal().map(ToString::to_string);
+            let refusal = memo.refusal().map(refusal::told);
             let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
         }
@@ -318,7 +320,7 @@ impl App {
                         self.state.paper = stage;
                     }
                 }
-                Command::Touch { arc_length, bend } => self.change("contact.disk", |s| {
+                Command::Touch { arc_length, bend } => self.change(&["contact.disk", "contact.time"], |s| {
                     s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend) };
                     Ok(())
                 }),
@@ -326,30 +328,30 @@ impl App {
                 Command::Take { method, threshold, length } => self.take(method, threshold, length),
                 Command::HoldStudy(held) => self.tuner.hold(held),
                 Command::ResetAll => self.load(self.base.clone()),
-                Command::SetXi1(xi1) => self.change("detection.xi1", |s| {
+                Command::SetXi1(xi1) => self.change(&["detection.xi1"], |s| {
                     s.detection.xi1 = xi1;
                     Ok(())
                 }),
-                Command::SetXi2(xi2) => self.change("detection.xi2", |s| {
+                Command::SetXi2(xi2) => self.change(&["detection.xi2"], |s| {
                     s.detection.xi2 = xi2;
                     Ok(())
                 }),
-                Command::SetArmedFrom(time) => self.change("detection.armed_from", |s| {
+                Command::SetArmedFrom(time) => self.change(&["detection.armed_from"], |s| {
                     s.detection.armed_from = time;
                     Ok(())
                 }),
-                Command::Set(control, value) => self.change(control.key, |s| {
+                Command::Set(control, value) => self.change(&[control.key], |s| {
                     control.slide(s, value);
                     Ok(())
                 }),
-                Command::Enter(control, text) => self.change(control.key, |s| control.enter(s, &text)),
+                Command::Enter(control, text) => self.change(&[control.key], |s| control.enter(s, &text)),
                 Command::Switch(control, on) => self.switch(control, on),
-                Command::Pick(choice, option) => self.change(choice.key, |s| {
-                    (choice.set)(s, option);
+                Command::Pick(choice, option) => self.change(&[choice.of.path], |s| {
+                    choice.of.choose(s, option);
                     Ok(())
                 }),
-                Command::Reset(control) => self.restore(control.key, control.copy),
-                Command::ResetChoice(choice) => self.restore(choice.key, choice.copy),
+                Command::Reset(control) => self.restore(control.key, |from, to| control.copy(from, to)),
+                Command::ResetChoice(choice) => self.restore(choice.of.path, |from, to| choice.of.copy(from, to)),
                 Command::NextTheme => {
                     self.state.theme = self.state.theme.next();
                     ctx.set_theme(self.state.theme.preference());
@@ -368,12 +370,14 @@ impl App {
 
     /// Takes what a study has shown.
     fn take(&mut self, method: Method, threshold: f64, length: Option<u64>) {
-        self.change("detection.xi2", |s| {
-            let detection = &mut s.detection;
-            match (method, detection.xi1_rule) {
-                (Method::Jfd, Xi1Rule::Constant) => detection.xi1 = Threshold::On(threshold),
-                (Method::Jfd, Xi1Rule::Bound) => detection.xi1_factor = threshold,
-                _ => detection.xi2 = Threshold::On(threshold),
+        let key = match (method, self.state.scenario.detection.xi1_rule) {
+            (Method::Jfd, Xi1Rule::Constant) => "detection.xi1",
+            (Method::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
+            _ => "detection.xi2",
+        };
+        self.change(&[key, "filter.length"], |s| {
+            if let Some(key) = find(key) {
+                key.set_number(s, threshold);
             }
             s.filter.length = length.unwrap_or(s.filter.length);
             Ok(())
@@ -400,19 +404,25 @@ impl App {
         self.state.scenario = scenario;
     }
 
-    /// Changes the scenario if what comes out can be run; else says why not, and changes nothing.
-    fn change(&mut self, key: &'static str, change: impl FnOnce(&mut Scenario) -> Result<(), String>) {
+    /// Changes what controls (`asked`, by key) set if what comes out can be run; else says why not, beside the one of them
+    /// that is refused or beside the first, and changes nothing.
+    fn change(&mut self, asked: &[&'static str], change: impl FnOnce(&mut Scenario) -> Result<(), String>) {
         let mut scenario = self.state.scenario.clone();
-        let checked = change(&mut scenario).and_then(|()| {
-            memo::check(&scenario).map_err(|refused| refusal::told(controls::table::control(key), &refused))
+        let first = asked.first().copied().unwrap_or_default();
+        let checked = change(&mut scenario).map_err(|note| (first, note)).and_then(|()| {
+            memo::check(&scenario).map_err(|refused| {
+                let control = refusal::control(&refused).map(|control| control.key);
+                let key = asked.iter().copied().find(|key| Some(*key) == control).unwrap_or(first);
+                (key, refusal::told(&refused))
+            })
         });
         match checked {
             Ok(()) => {
                 self.remember(&scenario);
-                self.notes.remove(key);
+                asked.iter().for_each(|key| drop(self.notes.remove(key)));
                 self.state.scenario = scenario;
             }
-            Err(note) => {
+            Err((key, note)) => {
                 self.notes.insert(key, format!("{note}. Nothing was changed."));
             }
         }
@@ -420,9 +430,7 @@ impl App {
 
     /// Keeps the values of controls that a change switches off.
     fn remember(&mut self, next: &Scenario) {
-        for control in
-            controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|control| control.off.is_some())
-        {
+        for control in controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|c| c.has_off()) {
             if let (Some(value), None) = (control.value(&self.state.scenario), control.value(next)) {
                 self.state.remembered.insert(control.key.into(), value);
             }
@@ -430,23 +438,25 @@ impl App {
     }
 
     fn switch(&mut self, control: &'static Control, on: bool) {
-        let value = self.state.remembered.get(control.key).copied();
-        let value = value.or_else(|| control.value(&self.base)).or_else(|| control.value(&Scenario::default()));
-        self.change(control.key, |scenario| {
-            match (on, value, control.off) {
-                (true, Some(value), _) => control.slide(scenario, value),
-                (false, _, Some(off)) => off(scenario),
-                _ => {}
+        let value = self.state.otherwise(control, &self.base);
+        self.change(&[control.key], |scenario| {
+            match (on, value) {
+                (true, Some(value)) => control.slide(scenario, value),
+                (true, None) => {}
+                (false, _) => control.of.switch_off(scenario),
             }
             Ok(())
         });
     }
 
-    fn restore(&mut self, key: &'static str, copy: fn(&Scenario, &mut Scenario)) {
+    fn restore(&mut self, key: &'static str, copy: impl FnOnce(&Scenario, &mut Scenario)) {
         let base = self.base.clone();
-        self.change(key, |scenario| {
+        self.change(&[key], |scenario| {
             copy(&base, scenario);
             Ok(())
         });
     }
 }
+
+#[cfg(test)]
+mod tests;

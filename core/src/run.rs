@@ -7,8 +7,8 @@ use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Set
 use crate::model::Vec3;
 use crate::plant::Shape;
 use crate::record::{Entry, Recorder, Recording, Truth};
-use crate::scenario::text::number;
-use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::scenario::keys::{Allowed, Quantity, Value};
+use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use crate::sensors::tracker::Reading;
 
 /// The longest run that [`simulate`] keeps in memory, in samples: below 1 GB. A [`Simulation`] may go on for longer.
@@ -368,19 +368,13 @@ pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
 /// A plan whose run can be kept in memory.
 ///
 /// # Errors
-/// [`ScenarioError::Value`] of `motion.end` when it is longer than [`MAX_KEPT`].
+/// [`ScenarioError::Value`] names `motion.end` when it is longer than [`MAX_KEPT`].
 pub fn kept(plan: Plan) -> Result<Plan, ScenarioError> {
     if plan.samples() <= MAX_KEPT {
         return Ok(plan);
     }
-    Err(ScenarioError::Value {
-        key: "motion.end".into(),
-        value: number(plan.scenario().motion.end),
-        allowed: format!(
-            "at most {MAX_KEPT} samples in a run that is kept in memory; this one has {} (motion.end · loop_rate)",
-            plan.samples()
-        ),
-    })
+    let allowed = Allowed::Kept(MAX_KEPT, plan.samples());
+    Err(Refused::error("motion.end", Quantity::Time, Value::Number(plan.scenario().motion.end), allowed))
 }
 
 #[cfg(test)]

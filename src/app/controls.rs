@@ -72,16 +72,16 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
         return;
     }
     ui.push_id(group.name, |ui| {
-        let State { scenario, remembered, .. } = inputs.state;
+        let scenario = &inputs.state.scenario;
         let (base, touch) = (inputs.base, inputs.touch);
         let note = |key| inputs.notes.get(key).map(String::as_str);
         for control in group.controls {
-            let remembered = remembered.get(control.key).copied().or_else(|| control.value(inputs.base));
+            let remembered = inputs.state.otherwise(control, base);
             let context = Context { scenario, base, note: note(control.key), remembered, touch };
             row::number(ui, control, &context, out);
         }
         for choice in group.choices {
-            let context = Context { scenario, base, note: note(choice.key), remembered: None, touch };
+            let context = Context { scenario, base, note: note(choice.of.path), remembered: None, touch };
             row::choice(ui, choice, &context, out);
         }
         if !group.note.is_empty() {

@@ -72,10 +72,10 @@ mod tests {
         for group in table::GROUPS {
             texts.extend([group.name, group.note].map(String::from));
             for control in group.controls {
-                texts.extend([control.label, control.tip, control.quantity.unit()].map(String::from));
+                texts.extend([control.label.into(), control.tip(), control.quantity().unit().into()]);
             }
             for choice in group.choices {
-                texts.extend([choice.label, choice.tip].map(String::from));
+                texts.extend([choice.label.into(), choice.tip()]);
                 texts.extend(choice.options.iter().map(|option| (*option).into()));
             }
         }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::controls::control::Control;
 use crate::app::controls::table;
 use crate::app::stages::stage::Stage;
 use crate::app::theme::ThemeChoice;
@@ -106,10 +107,25 @@ impl Default for State {
 }
 
 impl State {
+    /// What a control that is switched off goes back to, SI; 0 for a key without control.
+    #[must_use]
+    pub fn otherwise_si(&self, key: &str, base: &Scenario) -> f64 {
+        let value = |control: &Control| Some(control.quantity().si(self.otherwise(control, base)?));
+        table::control(key).and_then(value).unwrap_or(0.0)
+    }
+
     /// The chosen preset; the first when its name is unknown.
     #[must_use]
     pub fn preset(&self) -> &'static Preset {
         preset::find(&self.preset).unwrap_or(&PRESETS[0])
+    }
+
+    /// What a control that is switched off goes back to, in the unit shown: its value when it was last on, else the
+    /// preset's (`base`), else the default.
+    #[must_use]
+    pub fn otherwise(&self, control: &Control, base: &Scenario) -> Option<f64> {
+        let remembered = self.remembered.get(control.key).copied();
+        remembered.or_else(|| control.value(base)).or_else(|| control.value(&Scenario::default()))
     }
 }
 

@@ -192,7 +192,7 @@ impl StudyArgs {
             }
             *levels = Some(sweep.levels().map_err(refused)?);
         }
-        let cells = combinations(scenario, &others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
+        let cells = combinations(&others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
         Ok(Spec { scenario: scenario.clone(), repeats: self.repeats, late: self.late, cells, xi2, xi1 })
     }
 }

@@ -79,7 +79,7 @@ fn every_named_slider_is_there_and_moves_the_scenario() {
         assert_eq!(slider(&page, label).accesskit_node().numeric_value(), Some(value), "{label}");
     }
     let mut by_hand = centrode_core::scenario::preset::PRESETS[0].scenario().expect("preset");
-    by_hand.contact.place = centrode_core::scenario::Place::Disk(3);
+    by_hand.contact.place = centrode_core::scenario::Place::disk(3);
     click(&mut page, "Reset all");
     slide(&mut page, "Contact disk", 3.0);
     let expected = centrode_core::run::simulate(&by_hand).expect("run");

@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 fn contact(disk: u64, time: f64) -> Scenario {
     let mut scenario = Scenario::default();
-    scenario.contact.place = if disk == 0 { Place::Nowhere } else { Place::Disk(disk) };
+    scenario.contact.place = Place::disk(disk);
     scenario.contact.start = Start::Time(time);
     scenario
 }

@@ -20,6 +20,7 @@ mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
+mod keys;
 mod map;
 #[cfg(feature = "cli")]
 mod map_command;

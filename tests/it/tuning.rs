@@ -223,7 +223,7 @@ fn impossible_specs_are_refused() {
     let cells = vec![vec!["contact.disk=9".to_string()]];
     assert!(told(Spec { cells, ..spec.clone() }).contains("contact.disk = 9"));
     let mut scenario = Scenario::default();
-    scenario.contact.place = Place::Disk(7);
+    scenario.contact.place = Place::disk(7);
     assert!(told(Spec { scenario, ..spec }).contains("contact.disk = 7"));
 }
 

@@ -5,6 +5,7 @@
 use crate::model::Segment;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::num::NonZeroU64;
 
 /// A whole experiment.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -153,7 +154,7 @@ pub struct Contact {
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { place: Place::Disk(2), start: Start::Time(5.80) }
+        Self { place: Place::disk(2), start: Start::Time(5.80) }
     }
 }
 
@@ -163,9 +164,17 @@ pub enum Place {
     /// No beam.
     Nowhere,
     /// At a spacer disk, counted from 1 at the base.
-    Disk(u64),
+    Disk(NonZeroU64),
     /// At an arc length, m.
     ArcLength(f64),
+}
+
+impl Place {
+    /// At the spacer disk of this number; 0 is nowhere.
+    #[must_use]
+    pub fn disk(number: u64) -> Self {
+        NonZeroU64::new(number).map_or(Self::Nowhere, Self::Disk)
+    }
 }
 
 /// When the beam meets the backbone.
@@ -200,8 +209,7 @@ impl TryFrom<ContactKeys> for Contact {
             (Some(_), Some(_)) => {
                 return Err("holds both disk and arc_length; only one of them is allowed");
             }
-            (Some(0), None) => Place::Nowhere,
-            (Some(disk), None) => Place::Disk(disk),
+            (Some(disk), None) => Place::disk(disk),
             (None, Some(s)) => Place::ArcLength(s),
             (None, None) => default.place,
         };
@@ -221,7 +229,7 @@ impl From<Contact> for ContactKeys {
     fn from(contact: Contact) -> Self {
         let (disk, arc_length) = match contact.place {
             Place::Nowhere => (Some(0), None),
-            Place::Disk(disk) => (Some(disk), None),
+            Place::Disk(disk) => (Some(disk.get()), None),
             Place::ArcLength(s) => (None, Some(s)),
         };
         let (time, bend) = match contact.start {

@@ -1,32 +1,30 @@
 //! Scenarios as TOML text: reading, overriding one key, and saying what is wrong where.
 
 use crate::scenario::Scenario;
-use crate::scenario::{Plan, ScenarioError};
-use toml::{Table, Value};
+use crate::scenario::keys::{self, Allowed, GROUPS, KEYS, Key, Quantity, Value};
+use crate::scenario::refusal::{Refused, ScenarioError};
+use toml::Table;
 
 /// The default scenario, every key with its unit and meaning, as `centrode scenario` prints it.
 pub const DEFAULT_TOML: &str = include_str!("../../../assets/scenario.toml");
 
-/// Keys of which a scenario holds one or the other: setting one removes its partner.
-const EITHER_OR: [(&str, &str); 2] = [("disk", "arc_length"), ("time", "bend")];
-
 /// A scenario being put together: a file or preset, then overrides, then a check.
 #[derive(Debug, Clone, Default)]
 pub struct Draft {
-    table: Table,
+    scenario: Scenario,
 }
 
 impl Draft {
     /// From a scenario in hand.
     #[must_use]
     pub fn from_scenario(scenario: &Scenario) -> Self {
-        Self { table: Table::try_from(scenario).unwrap_or_default() }
+        Self { scenario: scenario.clone() }
     }
 
     /// From a file's bytes.
     ///
     /// # Errors
-    /// When they are not UTF-8, or not TOML.
+    /// When they are not UTF-8, not TOML, or hold an unknown key or a value of another kind.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ScenarioError> {
         let text =
             std::str::from_utf8(bytes).map_err(|error| ScenarioError::NotText { offset: error.valid_up_to() })?;
@@ -36,83 +34,135 @@ impl Draft {
     /// From TOML; missing keys have their defaults.
     ///
     /// # Errors
-    /// When it is not TOML.
+    /// When it is not TOML, or holds an unknown key or a value of another kind.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let table = text.parse::<Table>().map_err(|error| ScenarioError::Syntax {
             line: error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count()),
             message: error.message().replace('\n', " "),
         })?;
-        Ok(Self { table })
+        let mut scenario = Scenario::default();
+        read_group(&mut scenario, "", &table)?;
+        Ok(Self { scenario })
     }
 
     /// Overrides one key with `key=value`; the value is TOML, or a bare word.
     ///
     /// # Errors
-    /// When the text is not `key=value`, or the key cannot hold another key.
+    /// When the text is not `key=value`, the key is unknown, or the value is of another kind.
     pub fn set(&mut self, text: &str) -> Result<(), ScenarioError> {
         let malformed = || ScenarioError::Override { text: text.into() };
-        let (key, value) = text.split_once('=').ok_or_else(malformed)?;
-        let (key, value) = (key.trim(), value.trim());
-        if key.is_empty() || value.is_empty() {
+        let (path, value) = text.split_once('=').ok_or_else(malformed)?;
+        let (path, value) = (path.trim(), value.trim());
+        if path.is_empty() || value.is_empty() {
             return Err(malformed());
         }
         let value = match format!("value = {value}").parse::<Table>() {
             Ok(mut table) if table.len() == 1 => table.remove("value").ok_or_else(malformed)?,
-            _ => Value::String(value.into()),
+            _ => toml::Value::String(value.into()),
         };
-        let (groups, name) = key.rsplit_once('.').unwrap_or(("", key));
-        let mut table = &mut self.table;
-        for group in groups.split('.').filter(|group| !group.is_empty()) {
-            let entry = table.entry(group).or_insert_with(|| Value::Table(Table::new()));
-            table = entry.as_table_mut().ok_or_else(|| ScenarioError::UnknownKey {
-                key: key.into(),
-                known: format!("{group}, which holds no keys of its own"),
-            })?;
-        }
-        if groups == "contact" {
-            for (one, other) in EITHER_OR {
-                for (set, dropped) in [(one, other), (other, one)] {
-                    if name == set {
-                        table.remove(dropped);
-                    }
-                }
+        if keys::is_group(path) {
+            // A group is given as a whole: what it does not name has its default.
+            let (default, within) = (Scenario::default(), format!("{path}."));
+            for key in KEYS.iter().filter(|key| key.path.starts_with(&within)) {
+                key.copy(&default, &mut self.scenario);
             }
         }
-        table.insert(name.into(), value);
-        Ok(())
-    }
-
-    /// Whether the value under a key is a whole number.
-    #[must_use]
-    pub fn is_whole(&self, key: &str) -> bool {
-        let (groups, name) = key.rsplit_once('.').unwrap_or(("", key));
-        let mut table = Some(&self.table);
-        for group in groups.split('.').filter(|group| !group.is_empty()) {
-            table = table.and_then(|table| table.get(group)).and_then(Value::as_table);
-        }
-        table.and_then(|table| table.get(name)).is_some_and(Value::is_integer)
-    }
-
-    /// The draft itself when every key in it exists.
-    ///
-    /// # Errors
-    /// The first key that does not.
-    pub fn known_keys_only(self) -> Result<Self, ScenarioError> {
-        check_keys(&self.table)?;
-        Ok(self)
+        read(&mut self.scenario, path, &value)
     }
 
     /// The scenario, checked.
     ///
     /// # Errors
-    /// The first key that is unknown or value that is impossible.
+    /// The first value that is impossible.
     pub fn finish(self) -> Result<Scenario, ScenarioError> {
-        let this = self.known_keys_only()?;
-        let scenario: Scenario = serde_path_to_error::deserialize(Value::Table(this.table.clone()))
-            .map_err(|error| type_error(&this.table, &error))?;
-        Plan::new(&scenario)?;
-        Ok(scenario)
+        KEYS.iter().try_for_each(|key| key.check(&self.scenario))?;
+        Ok(self.scenario)
+    }
+}
+
+/// Reads what stands at a path.
+fn read(scenario: &mut Scenario, path: &str, value: &toml::Value) -> Result<(), ScenarioError> {
+    if let Some(key) = keys::find(path) {
+        let value = key.read(value)?;
+        return key.set(scenario, value);
+    }
+    match (GROUPS.iter().find(|group| group.path == path), value) {
+        (Some(_), toml::Value::Table(table)) => read_group(scenario, path, table),
+        (Some(group), value) => Err(Refused::error(path, Quantity::Word, written(value), Allowed::Group(group.path))),
+        (None, _) => Err(unknown(path)),
+    }
+}
+
+fn read_group(scenario: &mut Scenario, group: &str, table: &Table) -> Result<(), ScenarioError> {
+    for (name, value) in table {
+        let path = if group.is_empty() { name.clone() } else { format!("{group}.{name}") };
+        read(scenario, &path, value)?;
+        if let Some((key, other)) = keys::find(&path).and_then(|key| Some((key, key.other()?)))
+            && table.contains_key(other.name())
+        {
+            return Err(key.refuse(written(value), Allowed::Without(other.path)));
+        }
+    }
+    Ok(())
+}
+
+/// The refusal of a path, with what is known at the place where it goes astray.
+fn unknown(path: &str) -> ScenarioError {
+    let mut group = path;
+    while let Some((before, _)) = group.rsplit_once('.') {
+        group = before;
+        if keys::find(group).is_some() {
+            return ScenarioError::UnknownKey {
+                key: path.into(),
+                known: format!("{group}, which holds no keys of its own"),
+            };
+        }
+        if keys::is_group(group) {
+            return ScenarioError::UnknownKey { key: path.into(), known: keys::names(group).join(", ") };
+        }
+    }
+    ScenarioError::UnknownKey { key: path.into(), known: keys::names("").join(", ") }
+}
+
+/// A value as it was written, on one line.
+fn written(value: &toml::Value) -> Value {
+    Value::Other(value.to_string().replace('\n', " "))
+}
+
+impl Key {
+    /// Reads a value of the key's own kind; whether it is possible is for [`Key::check`] to say.
+    ///
+    /// # Errors
+    /// When the value is of another kind.
+    pub fn read(&self, value: &toml::Value) -> Result<Value, ScenarioError> {
+        use toml::Value as Toml;
+        let known = |word: &str| self.words().iter().find(|known| **known == word);
+        let read = match value {
+            Toml::Integer(number) if self.is_whole() => u64::try_from(*number).ok().map(Value::Whole),
+            Toml::Array(items) if self.is_list() => {
+                let part = |(place, item): (usize, &Toml)| {
+                    float(item).ok_or_else(|| {
+                        Refused::error(format!("{}[{place}]", self.path), self.quantity, written(item), Allowed::Number)
+                    })
+                };
+                Some(Value::List(items.iter().enumerate().map(part).collect::<Result<_, _>>()?))
+            }
+            Toml::String(word) if word == "off" && self.has_off() => Some(Value::Off),
+            Toml::String(word) => known(word).map(|word| Value::Word(word)),
+            _ if self.is_number() => float(value).map(Value::Number),
+            _ => None,
+        };
+        read.ok_or_else(|| self.refuse(written(value), self.allowed))
+    }
+}
+
+/// A number, whole or not.
+fn float(value: &toml::Value) -> Option<f64> {
+    match value {
+        toml::Value::Float(number) => Some(*number),
+        toml::Value::Integer(number) => Some(*number as f64),
+        _ => None,
     }
 }
 
@@ -143,72 +193,6 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// The keys that exist in a group ("" for the top).
-fn known_keys(group: &str) -> Option<Vec<String>> {
-    let top: Table = toml::Value::try_from(Scenario::default()).ok()?.as_table()?.clone();
-    let mut table = &top;
-    for name in group.split('.').filter(|name| !name.is_empty()) {
-        table = table.get(name)?.as_table()?;
-    }
-    let mut keys: Vec<String> = table.keys().cloned().collect();
-    if group == "contact" {
-        keys = EITHER_OR.iter().flat_map(|(one, other)| [(*one).into(), (*other).into()]).collect();
-    }
-    Some(keys)
-}
-
-fn check_keys(table: &Table) -> Result<(), ScenarioError> {
-    fn walk(table: &Table, group: &str) -> Result<(), ScenarioError> {
-        let Some(known) = known_keys(group) else {
-            return Ok(());
-        };
-        for (key, value) in table {
-            let path = if group.is_empty() { key.clone() } else { format!("{group}.{key}") };
-            if !known.contains(key) {
-                return Err(ScenarioError::UnknownKey { key: path, known: known.join(", ") });
-            }
-            if let Value::Table(inner) = value {
-                walk(inner, &path)?;
-            }
-        }
-        Ok(())
-    }
-    walk(table, "")
-}
-
-fn type_error(table: &Table, error: &serde_path_to_error::Error<toml::de::Error>) -> ScenarioError {
-    let path = error.path().to_string();
-    let mut value = None;
-    let mut inner = Some(table);
-    for name in path.split('.') {
-        let (name, index) = name.split_once('[').map_or((name, None), |(name, index)| (name, Some(index)));
-        value = inner.and_then(|table| table.get(name));
-        if let Some(index) = index.and_then(|index| index.trim_end_matches(']').parse::<usize>().ok()) {
-            value = value.and_then(|list| list.get(index));
-        }
-        inner = value.and_then(Value::as_table);
-    }
-    let value = value.map_or_else(String::new, ToString::to_string).replace('\n', " ");
-    let allowed = match (path.as_str(), inner) {
-        ("seed", _) => "a whole number from 0 to 9223372036854775807",
-        ("contact.disk", _) => "a whole number, 0 or more",
-        ("filter.length", _) => "a whole number, 1 or more",
-        ("detection.xi1" | "detection.xi2", _) => "a number, 0 or more, or \"off\"",
-        ("tracker.mounting", _) => "\"bending-axis\" or \"aligned\"",
-        ("filter.averaging", _) => "\"readings\" or \"rotations\"",
-        ("robot.disks", _) => "a list of arc lengths in m",
-        ("load.force", _) => "three numbers, [x, y, z] in N",
-        ("load.moment", _) => "three numbers, [x, y, z] in N·m",
-        ("load_cells.errors", _) => "\"common\" or \"independent\"",
-        ("detection.xi1_rule", _) => "\"constant\" or \"bound\"",
-        ("contact", Some(_)) => "either disk or arc_length, and either time or bend, not both",
-        ("contact", None) => "a table with disk or arc_length, and time or bend",
-        _ if matches!(known_keys(&path), Some(keys) if !keys.is_empty()) => "a table of keys",
-        _ => "a number",
-    };
-    ScenarioError::Value { key: path, value, allowed: allowed.into() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -230,7 +214,7 @@ mod tests {
         fn keys(table: &Table, group: &str, out: &mut Vec<String>) {
             for (key, value) in table {
                 out.push(format!("{group}.{key}"));
-                if let Value::Table(inner) = value {
+                if let toml::Value::Table(inner) = value {
                     keys(inner, &format!("{group}.{key}"), out);
                 }
             }

@@ -10,8 +10,9 @@ use crate::detect::evidence::Observer;
 use crate::detect::{Detection, Settings};
 use crate::record::Script;
 use crate::run::kept;
+use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::preset::find;
-use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use libm::sqrt;
 use serde::Serialize;
 
@@ -200,17 +201,16 @@ impl Table2Job {
     /// # Errors
     /// When the scenario is impossible, has fewer than three disks, or the repeats are not from 1 to [`MAX_REPEATS`].
     pub fn new(base: &Scenario, repeats: usize) -> Result<Self, ScenarioError> {
-        let refusal =
-            |key: &str, value: String, allowed: String| ScenarioError::Value { key: key.into(), value, allowed };
         if !(1..=MAX_REPEATS).contains(&repeats) {
-            let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
-            return Err(refusal("repeats", repeats.to_string(), allowed));
+            let allowed = Allowed::Whole(1, MAX_REPEATS as u64);
+            return Err(Refused::error("repeats", Quantity::Count, Value::Whole(repeats as u64), allowed));
         }
         Plan::new(base)?;
         let count = base.robot.disks.len();
         if count < PRESETS.len() {
-            let allowed = "at least three disks, for Table II compares disks 1, 2 and 3".into();
-            return Err(refusal("robot.disks", format!("{:?}", base.robot.disks), allowed));
+            let allowed = Allowed::Need("at least three disks, for Table II compares disks 1, 2 and 3");
+            let disks = Value::List(base.robot.disks.clone());
+            return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
         let mut plans = Vec::with_capacity(PRESETS.len());
         for (k, name) in PRESETS.into_iter().enumerate() {

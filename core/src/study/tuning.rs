@@ -19,9 +19,11 @@ use super::shared::Kept;
 use super::truth::contact_sample;
 use super::{Job, Progress};
 use crate::run::kept;
+use crate::scenario::keys::allowed::NOT_NEGATIVE;
+use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::text::Draft;
 use crate::scenario::{Place, Threshold};
-use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use levels::Levels;
 use serde::{Deserialize, Serialize};
 use tally::{Clock, Detection, FalseAlarms, Tally, detection, false_alarms};
@@ -104,14 +106,12 @@ impl Study {
     /// # Errors
     /// When a cell's scenario is impossible, a number of the spec is, or there is more to count than [`MAX_COUNTS`].
     pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
-        let refusal =
-            |key: &str, value: String, allowed: String| Err(ScenarioError::Value { key: key.into(), value, allowed });
         if !(1..=MAX_REPEATS).contains(&spec.repeats) {
-            let allowed = format!("a whole number from 1 to {MAX_REPEATS}");
-            return refusal("repeats", spec.repeats.to_string(), allowed);
+            let allowed = Allowed::Whole(1, MAX_REPEATS as u64);
+            return Err(Refused::error("repeats", Quantity::Count, Value::Whole(spec.repeats as u64), allowed));
         }
-        if !(spec.late >= 0.0 && spec.late.is_finite()) {
-            return refusal("late", spec.late.to_string(), "a finite time, 0 s or more".into());
+        if !NOT_NEGATIVE.has(spec.late) {
+            return Err(Refused::error("late", Quantity::Time, Value::Other(spec.late.to_string()), NOT_NEGATIVE));
         }
         let mut study = Self { batches: Vec::new(), cells: Vec::new(), counts: 0, shared: Kept::default(), spec };
         for set in study.spec.cells.clone() {
@@ -152,11 +152,9 @@ impl Study {
         let count = |levels: &Levels| Method::ALL.iter().map(|method| method.levels(levels).len()).sum::<usize>();
         self.counts += count(&levels);
         if self.counts > MAX_COUNTS {
-            return Err(ScenarioError::Value {
-                key: "cells".into(),
-                value: self.spec.cells.len().to_string(),
-                allowed: format!("at most {MAX_COUNTS} thresholds in all cells; compare fewer values or thresholds"),
-            });
+            let allowed = Allowed::Need("at most 20000000 thresholds in all cells; compare fewer values or thresholds");
+            let cells = Value::Whole(self.spec.cells.len() as u64);
+            return Err(Refused::error("cells", Quantity::Count, cells, allowed));
         }
         let plan = kept(Plan::new(&scenario)?)?;
         let armed = first_sample(&plan, scenario.detection.armed_from);

@@ -32,8 +32,8 @@ const GAP: f32 = 10.0;
 pub struct PlotState {
     /// Time under the pointer, s: shown in all plots.
     hover: Option<f64>,
-    /// ξ2 (m) and ξ1 (N·m) as last switched on, for switching on again.
-    last_on: [Option<f64>; 2],
+    /// ξ2 (m) and ξ1 (N·m) as they are when switched on again; the page remembers them, not the plots.
+    pub otherwise: [f64; 2],
     /// Tops of the deviation plots, held while a threshold is being moved.
     held: [Option<f64>; 2],
     /// Distance from the pointer to what it holds when a drag starts, points.

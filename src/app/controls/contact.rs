@@ -1,15 +1,9 @@
 //! Settings that are not always a number: where the contact is, and when it starts.
 
-use crate::app::controls::quantity::Quantity::{Angle, Count, Length};
-use crate::app::controls::quantity::{number, shorten};
+use crate::app::controls::quantity::{number, parse, shorten};
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::keys::Quantity::{Angle, Count, Length};
 use centrode_core::scenario::{Place, Start};
-
-/// Sets the contact's disk; below 1 is none.
-pub fn set_disk(scenario: &mut Scenario, disk: f64) {
-    let disk = disk.round().max(0.0);
-    scenario.contact.place = if disk < 1.0 { Place::Nowhere } else { Place::Disk(disk as u64) };
-}
 
 /// Where the contact is, when that is no disk's number.
 pub fn show_place(scenario: &Scenario) -> Option<(String, &'static str)> {
@@ -35,9 +29,11 @@ pub fn enter_place(scenario: &mut Scenario, text: &str) -> Option<Result<(), Str
     }
     // A bare number is a disk; an arc length wears its unit, or is a field that shows one already.
     let along = matches!(scenario.contact.place, Place::ArcLength(_));
-    let disk = Count.parse(text).ok();
-    match (disk, Length.parse(text)) {
-        (Some(disk), _) if disk.fract() == 0.0 && disk >= 0.0 && !along => set_disk(scenario, disk),
+    let disk = parse(Count, text).ok();
+    match (disk, parse(Length, text)) {
+        (Some(disk), _) if disk.fract() == 0.0 && disk >= 0.0 && !along => {
+            scenario.contact.place = Place::disk(disk as u64)
+        }
         (Some(_), Ok(shown)) if along => scenario.contact.place = Place::ArcLength(Length.si(shown)),
         (None, Ok(shown)) => scenario.contact.place = Place::ArcLength(Length.si(shown)),
         _ => return Some(refused()),
@@ -61,9 +57,9 @@ pub fn show_start(scenario: &Scenario) -> Option<(String, &'static str)> {
 /// Reads when the contact starts, when that is a bend.
 pub fn enter_start(scenario: &mut Scenario, text: &str) -> Option<Result<(), String>> {
     // A bare number is of the kind that the field shows.
-    let bare = Count.parse(text).is_ok();
+    let bare = parse(Count, text).is_ok();
     let bend = matches!(scenario.contact.start, Start::Bend(_));
-    let angle = Angle.parse(text).ok().filter(|_| bend || !bare)?;
+    let angle = parse(Angle, text).ok().filter(|_| bend || !bare)?;
     scenario.contact.start = Start::Bend(Angle.si(angle));
     Some(Ok(()))
 }
@@ -79,9 +75,9 @@ mod tests {
         let disk = control("contact.disk").expect("a row");
         let mut scenario = Scenario::default();
         for (text, place) in [
-            ("3", Place::Disk(3)),
+            ("3", Place::disk(3)),
             ("none", Place::Nowhere),
-            ("1", Place::Disk(1)),
+            ("1", Place::disk(1)),
             ("18 mm", Place::ArcLength(0.018)),
             ("17", Place::ArcLength(0.017)),
             ("None", Place::Nowhere),

@@ -1,7 +1,8 @@
 //! What a control is: one row of a table, from which the panel draws label, slider, field and reset.
 
-use crate::app::controls::quantity::{Quantity, number};
+use crate::app::controls::quantity::{number, parse, shorten};
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::keys::{Key, Quantity};
 
 /// A part of the panel that folds.
 #[derive(Debug)]
@@ -33,38 +34,22 @@ pub enum Scale {
     Log(f64),
 }
 
-impl Scale {
-    /// Whether only whole numbers, 0 or more, are on it.
-    #[must_use]
-    pub fn is_whole(self) -> bool {
-        matches!(self, Self::Whole | Self::Stops | Self::LogWhole)
-    }
-}
-
 /// A number that can be slid and typed. Values are in the unit shown unless said otherwise.
 pub struct Control {
-    /// Key in a scenario file.
+    /// Path in a scenario file, with the place in a list in brackets; its notes stand under it.
     pub key: &'static str,
+    /// What it sets.
+    pub of: &'static Key,
+    /// Which part of it, for a list.
+    pub part: Option<usize>,
     /// Name, also to assistive technology and tests.
     pub label: &'static str,
-    /// What it is.
-    pub quantity: Quantity,
     /// Digits after the point.
     pub decimals: usize,
     /// How values lie along the slider.
     pub scale: Scale,
-    /// Ends of the slider; what is typed may lie outside.
-    pub range: fn(&Scenario) -> (f64, f64),
-    /// What it does, in a line.
-    pub tip: &'static str,
-    /// The value in SI; none while it is switched off.
-    pub get: fn(&Scenario) -> Option<f64>,
-    /// Sets the value, in SI.
-    pub set: fn(&mut Scenario, f64),
-    /// Copies the setting from one scenario into another.
-    pub copy: fn(&Scenario, &mut Scenario),
-    /// Switches it off, where that is possible.
-    pub off: Option<fn(&mut Scenario)>,
+    /// What can be done with it besides, in a sentence; empty for nothing.
+    pub hint: &'static str,
     /// Words in place of the number.
     pub words: Option<Words>,
 }
@@ -72,6 +57,8 @@ pub struct Control {
 /// For a control whose setting is not always a number.
 #[derive(Clone, Copy)]
 pub struct Words {
+    /// Where the slider's handle stands, SI.
+    pub place: fn(&Scenario) -> f64,
     /// Name, where it is not the control's.
     pub label: fn(&Scenario) -> Option<&'static str>,
     /// Text and unit, where they are not the number's.
@@ -87,10 +74,40 @@ impl std::fmt::Debug for Control {
 }
 
 impl Control {
+    /// What its number is.
+    #[must_use]
+    pub fn quantity(&self) -> Quantity {
+        self.of.quantity
+    }
+
+    /// What it does, in a sentence or two.
+    #[must_use]
+    pub fn tip(&self) -> String {
+        [self.of.sentence, self.hint].join(" ").trim_end().into()
+    }
+
+    /// Whether it can be switched off.
+    #[must_use]
+    pub fn has_off(&self) -> bool {
+        self.of.has_off()
+    }
+
+    /// Ends of the slider; what is typed may lie outside.
+    #[must_use]
+    pub fn range(&self, scenario: &Scenario) -> (f64, f64) {
+        let (low, high) = self.of.usual(scenario);
+        (self.quantity().shown(low), self.quantity().shown(high))
+    }
+
     /// The value in the unit shown; none while it is switched off.
     #[must_use]
     pub fn value(&self, scenario: &Scenario) -> Option<f64> {
-        (self.get)(scenario).map(|si| self.quantity.shown(si))
+        let si = match (self.words, self.part) {
+            (Some(words), _) => Some((words.place)(scenario)),
+            (None, Some(part)) => self.of.list(scenario).and_then(|list| list.get(part)).copied(),
+            (None, None) => self.of.number(scenario),
+        };
+        si.map(|si| self.quantity().shown(si))
     }
 
     /// Name, for what the setting holds.
@@ -105,12 +122,16 @@ impl Control {
         if let Some(shown) = self.words.and_then(|words| (words.show)(scenario)) {
             return shown;
         }
-        self.value(scenario).map_or(("off".into(), ""), |value| (number(value, self.decimals), self.quantity.unit()))
+        self.value(scenario).map_or(("off".into(), ""), |value| (number(value, self.decimals), self.quantity().unit()))
     }
 
     /// Sets it from the unit shown.
     pub fn slide(&self, scenario: &mut Scenario, value: f64) {
-        (self.set)(scenario, self.quantity.si(value));
+        let si = self.quantity().si(value);
+        match self.part {
+            Some(part) => self.of.set_part(scenario, part, si),
+            None => self.of.set_number(scenario, si),
+        }
     }
 
     /// Sets it from what a person typed.
@@ -121,62 +142,61 @@ impl Control {
         if let Some(result) = self.words.and_then(|words| (words.enter)(scenario, text)) {
             return result;
         }
-        if let (Some(off), "off" | "none") = (self.off, text.trim().to_lowercase().as_str()) {
-            off(scenario);
+        if self.has_off() && matches!(text.trim().to_lowercase().as_str(), "off" | "none") {
+            self.of.switch_off(scenario);
             return Ok(());
         }
-        let value = self.quantity.parse(text)?;
-        if self.scale.is_whole() && (value.fract() != 0.0 || value < 0.0) {
-            return Err(format!(
-                "“{}”: a whole number is expected",
-                crate::app::controls::quantity::shorten(text.trim())
-            ));
+        let value = parse(self.quantity(), text)?;
+        if self.of.is_whole() && (value.fract() != 0.0 || value < 0.0) {
+            return Err(format!("“{}”: a whole number is expected", shorten(text.trim())));
         }
         self.slide(scenario, value);
         Ok(())
     }
 
+    /// Gives one scenario what another holds here.
+    pub fn copy(&self, from: &Scenario, to: &mut Scenario) {
+        match self.part {
+            Some(part) => {
+                if let Some(&value) = self.of.list(from).and_then(|list| list.get(part)) {
+                    self.of.set_part(to, part, value);
+                }
+            }
+            None => self.of.copy(from, to),
+        }
+    }
+
     /// Whether two scenarios differ here.
     #[must_use]
     pub fn differs(&self, scenario: &Scenario, other: &Scenario) -> bool {
-        differs(self.copy, scenario, other)
+        let part = |scenario| self.of.list(scenario).and_then(|list| list.get(self.part?));
+        if self.part.is_some() { part(scenario) != part(other) } else { !self.of.agrees(scenario, other) }
     }
 }
 
 /// Options of which one holds.
+#[derive(Debug)]
 pub struct Choice {
-    /// Key in a scenario file.
-    pub key: &'static str,
+    /// What it sets.
+    pub of: &'static Key,
     /// Name.
     pub label: &'static str,
-    /// What it does, in a line.
-    pub tip: &'static str,
-    /// The options.
+    /// What can be seen of it besides, in a sentence; empty for nothing.
+    pub hint: &'static str,
+    /// What the key's words are called here, in their order.
     pub options: &'static [&'static str],
-    /// Which one holds.
-    pub get: fn(&Scenario) -> usize,
-    /// Picks one.
-    pub set: fn(&mut Scenario, usize),
-    /// Copies the setting from one scenario into another.
-    pub copy: fn(&Scenario, &mut Scenario),
-}
-
-impl std::fmt::Debug for Choice {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "Choice({})", self.key)
-    }
 }
 
 impl Choice {
+    /// What it does, in a sentence or two.
+    #[must_use]
+    pub fn tip(&self) -> String {
+        [self.of.sentence, self.hint].join(" ").trim_end().into()
+    }
+
     /// Whether two scenarios differ here.
     #[must_use]
     pub fn differs(&self, scenario: &Scenario, other: &Scenario) -> bool {
-        differs(self.copy, scenario, other)
+        !self.of.agrees(scenario, other)
     }
-}
-
-fn differs(copy: fn(&Scenario, &mut Scenario), scenario: &Scenario, other: &Scenario) -> bool {
-    let mut copied = scenario.clone();
-    copy(other, &mut copied);
-    copied != *scenario
 }

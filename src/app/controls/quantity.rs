@@ -1,112 +1,34 @@
-//! Quantities as a person reads and types them: millimetres and degrees here, SI everywhere else.
-
-use std::f64::consts::PI;
+//! Numbers as a person reads and types them: millimetres and degrees here, SI everywhere else.
 
 use crate::app::charts::notation;
+use centrode_core::scenario::keys::Quantity;
+use centrode_core::scenario::keys::quantity::Unit;
 
-/// What a number is, and so how it is shown and typed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// A length, shown in mm.
-    Length,
-    /// An angle, shown in °.
-    Angle,
-    /// A time, shown in s.
-    Time,
-    /// A ratio, shown in %.
-    Ratio,
-    /// A moment, shown in mN·m.
-    Moment,
-    /// A force, shown in N.
-    Force,
-    /// A frequency, shown in Hz.
-    Frequency,
-    /// An angular speed, shown in °/s.
-    AngularSpeed,
-    /// A modulus of elasticity, shown in GPa.
-    Modulus,
-    /// A number without unit.
-    Count,
-}
-
-/// A unit: its name, and its size in SI as a numerator and a denominator, so that 6.5 mm is the double nearest 0.0065 m.
-struct Unit(&'static str, f64, f64);
-
-impl Quantity {
-    /// The first is the one shown.
-    #[rustfmt::skip]
-    fn units(self) -> &'static [Unit] {
-        match self {
-            Self::Length => &[
-                Unit("mm", 1.0, 1e3), Unit("µm", 1.0, 1e6), Unit("μm", 1.0, 1e6), Unit("um", 1.0, 1e6), Unit("cm", 1.0, 1e2), Unit("m", 1.0, 1.0),
-            ],
-            Self::Angle => &[
-                Unit("°", PI, 180.0), Unit("deg", PI, 180.0), Unit("degrees", PI, 180.0), Unit("rad", 1.0, 1.0), Unit("mrad", 1.0, 1e3),
-            ],
-            Self::Time => &[Unit("s", 1.0, 1.0), Unit("ms", 1.0, 1e3)],
-            Self::Ratio => &[Unit("%", 1.0, 1e2)],
-            Self::Moment => &[
-                Unit("mN·m", 1.0, 1e3), Unit("mNm", 1.0, 1e3), Unit("N·mm", 1.0, 1e3), Unit("Nmm", 1.0, 1e3),
-                Unit("N·m", 1.0, 1.0), Unit("Nm", 1.0, 1.0), Unit("N m", 1.0, 1.0),
-            ],
-            Self::Force => &[Unit("N", 1.0, 1.0), Unit("mN", 1.0, 1e3)],
-            Self::Frequency => &[Unit("Hz", 1.0, 1.0), Unit("kHz", 1e3, 1.0)],
-            Self::AngularSpeed => &[Unit("°/s", PI, 180.0), Unit("deg/s", PI, 180.0), Unit("rad/s", 1.0, 1.0)],
-            Self::Modulus => &[Unit("GPa", 1e9, 1.0), Unit("MPa", 1e6, 1.0), Unit("Pa", 1.0, 1.0)],
-            Self::Count => &[Unit("", 1.0, 1.0)],
+/// Reads what a person typed, with or without unit; the result is in the unit shown.
+///
+/// # Errors
+/// What is wrong with it, in words.
+pub fn parse(quantity: Quantity, text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    if grouped(text) {
+        return Err(format!("“{}” may be thousands or decimals: leave the comma out, or write a point", shorten(text)));
+    }
+    let (number, unit) = split(text).ok_or_else(|| format!("“{}” is not a number", shorten(text)))?;
+    if !number.is_finite() {
+        return Err(format!("“{}” is not a finite number", shorten(text)));
+    }
+    if unit.is_empty() {
+        return Ok(number);
+    }
+    let known = quantity.units().iter().position(|Unit(name, ..)| *name == unit);
+    match (known, quantity.unit()) {
+        (Some(0), _) => Ok(number),
+        (Some(other), _) => {
+            let Unit(_, over, under) = quantity.units()[other];
+            Ok(quantity.shown(number * over / under))
         }
-    }
-
-    /// The unit it is shown in.
-    #[must_use]
-    pub fn unit(self) -> &'static str {
-        self.units()[0].0
-    }
-
-    /// The SI unit, empty for none.
-    #[must_use]
-    pub fn si_unit(self) -> &'static str {
-        self.units().iter().find(|unit| unit.1 == 1.0 && unit.2 == 1.0).map_or("", |unit| unit.0)
-    }
-
-    /// An SI value in the unit shown.
-    #[must_use]
-    pub fn shown(self, si: f64) -> f64 {
-        let Unit(_, over, under) = self.units()[0];
-        // More digits than anyone types, and 0.01° does not come back as 0.009999999999999998°.
-        round_to(si * under / over, 12)
-    }
-
-    /// A value in the unit shown, in SI.
-    #[must_use]
-    pub fn si(self, shown: f64) -> f64 {
-        let Unit(_, over, under) = self.units()[0];
-        shown * over / under
-    }
-
-    /// Reads what a person typed, with or without unit; the result is in the unit shown.
-    ///
-    /// # Errors
-    /// What is wrong with it, in words.
-    pub fn parse(self, text: &str) -> Result<f64, String> {
-        let text = text.trim();
-        let (number, unit) = split(text).ok_or_else(|| format!("“{}” is not a number", shorten(text)))?;
-        if !number.is_finite() {
-            return Err(format!("“{}” is not a finite number", shorten(text)));
-        }
-        if unit.is_empty() {
-            return Ok(number);
-        }
-        let known = self.units().iter().position(|Unit(name, ..)| *name == unit);
-        match (known, self.unit()) {
-            (Some(0), _) => Ok(number),
-            (Some(other), _) => {
-                let Unit(_, over, under) = self.units()[other];
-                Ok(self.shown(number * over / under))
-            }
-            (None, "") => Err(format!("“{}”: a plain number is expected, without unit", shorten(text))),
-            (None, own) => Err(format!("“{}”: {own} is expected, not “{}”", shorten(text), shorten(unit))),
-        }
+        (None, "") => Err(format!("“{}”: a plain number is expected, without unit", shorten(text))),
+        (None, own) => Err(format!("“{}”: {own} is expected, not “{}”", shorten(text), shorten(unit))),
     }
 }
 
@@ -143,6 +65,14 @@ pub fn round_to(value: f64, digits: i32) -> f64 {
         (value / scale).round() * scale
     };
     if rounded.is_finite() { rounded } else { value }
+}
+
+/// Whether a text's only comma may part thousands as well as decimals: exactly three digits follow it. Behind a lone 0
+/// it can only be decimal, as in 0,007.
+fn grouped(text: &str) -> bool {
+    let Some((before, after)) = text.split_once(',').filter(|(before, _)| !before.contains('.')) else { return false };
+    let three = after.chars().take_while(char::is_ascii_digit).count() == 3;
+    three && !matches!(before.trim().trim_start_matches(['-', '−', '+']), "" | "0")
 }
 
 /// The number at the start of a text, and the rest.
@@ -188,19 +118,31 @@ mod tests {
             (Quantity::Moment, "0.03 N·m", 30.0),
             (Quantity::Count, "1e3", 1000.0),
         ] {
-            assert_eq!(quantity.parse(text), Ok(shown), "{text}");
+            assert_eq!(parse(quantity, text), Ok(shown), "{text}");
         }
-        assert_eq!(Quantity::Angle.shown(Quantity::Angle.si(0.01)), 0.01);
     }
 
     #[test]
     fn nonsense_is_refused_in_words() {
         for text in ["", "abc", "nan", "inf", "1e999", "5.8 kg", "--3", "😀", "3 mm mm", "１２", &"9".repeat(5000)]
         {
-            let message = Quantity::Length.parse(text).expect_err(text);
+            let message = parse(Quantity::Length, text).expect_err(text);
             assert!(message.contains('“') && message.chars().count() < 80, "{message}");
         }
-        assert!(Quantity::Count.parse("3 mm").is_err());
+        assert!(parse(Quantity::Count, "3 mm").is_err());
+    }
+
+    #[test]
+    fn a_comma_before_three_digits_is_not_guessed_at() {
+        for text in ["1,000", "−1,500 mm", "12,345", "1,000 µm", "1,000e3"] {
+            let message = parse(Quantity::Length, text).expect_err(text);
+            assert!(message.contains("may be thousands or decimals") && message.chars().count() < 90, "{message}");
+        }
+        for (text, value) in
+            [("1,5", 1.5), ("1,00", 1.0), ("1,0000", 1.0), ("0,007", 0.007), ("-0,125", -0.125), (",125", 0.125)]
+        {
+            assert_eq!(parse(Quantity::Count, text), Ok(value), "{text}");
+        }
     }
 
     #[test]
@@ -211,7 +153,7 @@ mod tests {
         assert_eq!(number(2.5, 0), "2.5");
         assert_eq!(number(-0.0, 1), "0.0");
         assert_eq!(number(-1e-5, 1), "−1e−5");
-        assert_eq!(Quantity::Length.parse("1e−5"), Ok(1e-5));
+        assert_eq!(parse(Quantity::Length, "1e−5"), Ok(1e-5));
         assert_eq!(number(500.0, 0), "500");
         assert_eq!(number(-0.05, 2), "−0.05");
         assert_eq!(number(0.01, 3), "0.010");

@@ -34,7 +34,7 @@ pub struct Context<'a> {
 }
 
 /// Label and reset button; returns whether it was reset.
-fn heading(ui: &mut Ui, rect: Rect, key: &str, label: &str, tip: &str, differs: bool) -> bool {
+fn heading(ui: &mut Ui, rect: Rect, key: &str, label: &str, tip: String, differs: bool) -> bool {
     let theme = Theme::of(ui);
     let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
     let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
@@ -56,7 +56,7 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     let label = control.label(scenario);
-    if heading(ui, line, control.key, label, control.tip, control.differs(scenario, base)) {
+    if heading(ui, line, control.key, label, control.tip(), control.differs(scenario, base)) {
         out.push(Command::Reset(control));
     }
 
@@ -68,7 +68,7 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     if let Some(typed) = field(ui, place, &entry) {
         out.push(Command::Enter(control, typed));
     }
-    if control.off.is_some() {
+    if control.has_off() {
         let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
         if toggle(ui, place, &format!("{label} on"), value.is_some()) {
             out.push(Command::Switch(control, value.is_none()));
@@ -84,15 +84,14 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
             key: control.key,
             label,
             spoken: &spoken,
-            rail: Rail { range: (control.range)(scenario), scale: control.scale },
+            rail: Rail { range: control.range(scenario), scale: control.scale },
             value: value.or(*remembered).unwrap_or(0.0),
             notch: control.value(base),
             on: value.is_some(),
         },
     );
-    let tip = control.tip;
     moved.0.on_hover_ui(|ui| {
-        ui.label(tip);
+        ui.label(control.tip());
     });
     if let Some(value) = moved.1 {
         out.push(Command::Set(control, value));
@@ -109,11 +108,11 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + 28.0), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
-    if heading(ui, line, choice.key, choice.label, choice.tip, choice.differs(context.scenario, context.base)) {
+    if heading(ui, line, choice.of.path, choice.label, choice.tip(), choice.differs(context.scenario, context.base)) {
         out.push(Command::ResetChoice(choice));
     }
     let place = Rect::from_min_size(line.left_bottom(), vec2(width, 28.0));
-    if let Some(option) = segmented(ui, place, choice.label, choice.options, (choice.get)(context.scenario)) {
+    if let Some(option) = segmented(ui, place, choice.label, choice.options, choice.of.chosen(context.scenario)) {
         out.push(Command::Pick(choice, option));
     }
     if let Some(note) = context.note {

@@ -10,7 +10,7 @@ use centrode_core::scenario::{Place, Start};
 pub fn disk(scenario: &Scenario) -> f64 {
     match scenario.contact.place {
         Place::Nowhere => 0.0,
-        Place::Disk(disk) => disk as f64,
+        Place::Disk(disk) => disk.get() as f64,
         Place::ArcLength(s) => {
             let (mut count, mut below) = (0.0, 0.0);
             for &disk in &scenario.robot.disks {

@@ -183,7 +183,7 @@ mod tests {
         let mut studies = Studies::default();
         let mut scenario = Scenario::default();
         scenario.robot.disks = vec![0.01];
-        scenario.contact.place = Place::Disk(1);
+        scenario.contact.place = Place::disk(1);
         studies.update(Stage::Table2, &scenario);
         assert!(!studies.work());
         assert!(studies.refused().is_some_and(|why| why.contains("robot.disks")), "{:?}", studies.refused());

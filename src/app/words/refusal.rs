@@ -1,77 +1,55 @@
-//! Refusals in a control's own terms: its label for the key, the unit it shows for SI.
-
-use std::f64::consts::TAU;
+//! Refusals in the page's own terms: a control's label for its key, and the unit it shows for SI.
 
 use crate::app::controls::control::Control;
-use crate::app::controls::quantity::{Quantity, number, round_to};
-use crate::app::memo::Refusal;
-use centrode_core::scenario::ScenarioError;
+use crate::app::controls::quantity::number;
+use crate::app::controls::table;
+use crate::app::memo::{MAX_SAMPLES, Refusal};
+use centrode_core::scenario::keys::{Quantity, Units, Value};
+use centrode_core::scenario::{Refused, ScenarioError};
 
-/// Why a change was refused, to stand beside the control that asked for it. Keys that are not the control's stay as
-/// they are.
+/// The control of what is refused; none when no control sets it.
 #[must_use]
-pub fn told(control: Option<&Control>, refusal: &Refusal) -> String {
-    let own = |key: &str| control.and_then(|control| Some((control, name(control, key)?)));
+pub fn control(refusal: &Refusal) -> Option<&'static Control> {
     match refusal {
-        Refusal::Impossible(ScenarioError::Value { key, value, allowed }) => match own(key) {
-            Some((control, (label, quantity))) => {
-                let shown = value.parse().map_or_else(
-                    |_| value.clone(),
-                    |si| with_unit(&number(quantity.shown(si), control.decimals), quantity.unit()),
-                );
-                format!("{label} {shown}: {}", translated(allowed, quantity))
-            }
-            None => refusal.to_string(),
-        },
-        Refusal::TooLong { end, .. } => match own("motion.end") {
-            Some((control, (label, quantity))) => {
-                let shown = with_unit(&number(*end, control.decimals), quantity.unit());
-                refusal.to_string().replacen(&format!("motion.end = {end} s"), &format!("{label} {shown}"), 1)
-            }
-            None => refusal.to_string(),
-        },
-        Refusal::Impossible(_) => refusal.to_string(),
+        Refusal::Impossible(ScenarioError::Value(refused)) => table::control_of(&refused.key),
+        Refusal::TooLong { .. } => table::control("motion.end"),
+        Refusal::Impossible(_) => None,
     }
 }
 
-/// What a control calls a key, and what its values are; none for a key that is not its own.
-fn name(control: &Control, key: &str) -> Option<(&'static str, Quantity)> {
-    match (control.key, key) {
-        ("contact.disk", "contact.arc_length") => Some(("Contact place", Quantity::Length)),
-        ("contact.time", "contact.bend") => Some(("Contact bend", Quantity::Angle)),
-        (own, key) if own == key => Some((control.label, control.quantity)),
-        _ => None,
-    }
-}
-
-fn with_unit(number: &str, unit: &str) -> String {
-    if unit.is_empty() { number.into() } else { format!("{number} {unit}") }
-}
-
-/// A text in which each number with the SI unit is given in the unit shown. A ratio's numbers stand alone.
-fn translated(text: &str, quantity: Quantity) -> String {
-    let mut said: Vec<String> = Vec::new();
-    let mut words = text.split(' ').peekable();
-    while let Some(word) = words.next() {
-        let digits = word.trim_start_matches('(');
-        let value = if digits == "2π" { Some(TAU) } else { digits.parse::<f64>().ok() };
-        let next = words.peek().copied().unwrap_or_default();
-        let unit = next.trim_end_matches([',', ';', ')']);
-        let alone = quantity == Quantity::Ratio;
-        match value.filter(|_| alone || (!unit.is_empty() && unit == quantity.si_unit())) {
-            Some(si) => {
-                let shown = round_to(quantity.shown(si), 6).to_string().replace('-', "−");
-                let tail = if alone { "" } else { &next[unit.len()..] };
-                let head = &word[..word.len() - digits.len()];
-                said.push(format!("{head}{shown} {}{tail}", quantity.unit()));
-                if !alone {
-                    words.next();
-                }
-            }
-            None => said.push(word.into()),
+/// Why a scenario is refused. A key that no control sets keeps its own name.
+#[must_use]
+pub fn told(refusal: &Refusal) -> String {
+    match (refusal, control(refusal)) {
+        (Refusal::Impossible(ScenarioError::Value(refused)), Some(control)) => {
+            let Refused { key, quantity, value, allowed } = &**refused;
+            let said = match value {
+                Value::Number(si) => with_unit(*si, *quantity, control.decimals),
+                other => other.told(*quantity, Units::Shown),
+            };
+            format!("{} {said}: {}", label(control, key), allowed.words(*quantity, Units::Shown))
         }
+        (Refusal::Impossible(ScenarioError::Value(refused)), None) => refused.told(Units::Shown),
+        (Refusal::TooLong { end, rate, samples }, Some(control)) => format!(
+            "{} {} at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}",
+            control.label,
+            with_unit(*end, control.quantity(), control.decimals)
+        ),
+        _ => refusal.to_string(),
     }
-    said.join(" ")
+}
+
+/// What a control is called while it holds this key.
+fn label(control: &Control, key: &str) -> &'static str {
+    match key {
+        "contact.arc_length" => "Contact place",
+        "contact.bend" => "Contact bend",
+        _ => control.label,
+    }
+}
+
+fn with_unit(si: f64, quantity: Quantity, decimals: usize) -> String {
+    format!("{} {}", number(quantity.shown(si), decimals), quantity.unit()).trim_end().into()
 }
 
 #[cfg(test)]
@@ -85,7 +63,7 @@ mod tests {
     fn a_refusal_speaks_the_language_of_its_control() {
         for (key, typed, said) in [
             ("contact.disk", "9", "Contact disk 9: a disk from 1 to 3, the robot's spacer disks, or 0 for no contact"),
-            ("contact.disk", "50 mm", "Contact place 50 mm: an arc length from 0 to robot.length = 30 mm"),
+            ("contact.disk", "50 mm", "Contact place 50 mm: a number from 0 mm to robot.length = 30 mm"),
             ("contact.time", "-1", "Contact time −1.00 s: a finite number, 0 s or more"),
             ("contact.time", "400°", "Contact bend 400.00 °: a finite angle, less than one turn (360 °) from straight"),
             ("tracker.position_noise", "-1", "Position noise −1.000 mm: a number from 0 mm to 1000 mm"),
@@ -98,12 +76,18 @@ mod tests {
             ),
             ("motion.finish", "2", "Motion ends 2.00 s: a time after motion.start = 3 s"),
             ("motion.end", "300", "Run ends 300.00 s at loop_rate = 1000 Hz is a run of 300001 samples"),
-            ("robot.length", "20", "robot.disks[2] = 0.0225 is not allowed"),
+            (
+                "filter.length",
+                "20000",
+                "Filter length N 20000: a whole number from 1 to 10001; the run has 10001 samples",
+            ),
+            ("motion.end", "0.4", "Filter length N 500: a whole number from 1 to 401"),
+            ("robot.length", "20", "robot.disks[2] = 22.5 mm is not allowed"),
         ] {
             let control = table::control(key).expect(key);
             let mut scenario = Scenario::default();
             control.enter(&mut scenario, typed).expect(typed);
-            let refused = told(Some(control), &check(&scenario).expect_err(typed));
+            let refused = told(&check(&scenario).expect_err(typed));
             assert!(refused.starts_with(said), "{refused}");
         }
     }

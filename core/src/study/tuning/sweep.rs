@@ -1,7 +1,8 @@
 //! Which values of which keys are compared.
 
-use crate::scenario::text::{Draft, number};
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::keys::{self, Allowed, Key, Quantity, Value};
+use crate::scenario::text::number;
+use crate::scenario::{Refused, ScenarioError};
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -111,10 +112,9 @@ impl Sweep {
         let mut levels = Vec::with_capacity(self.values.len());
         for value in &self.values {
             let level = value.parse::<f64>().ok().filter(|level| *level >= 0.0 && level.is_finite());
-            levels.push(level.ok_or_else(|| ScenarioError::Value {
-                key: self.key.clone(),
-                value: value.clone(),
-                allowed: "a swept threshold is a finite number, 0 or more".into(),
+            levels.push(level.ok_or_else(|| {
+                let allowed = Allowed::Need("a swept threshold is a finite number, 0 or more");
+                Refused::error(self.key.clone(), Quantity::Count, Value::Other(value.clone()), allowed)
             })?);
         }
         levels.sort_by(f64::total_cmp);
@@ -125,11 +125,11 @@ impl Sweep {
 
 /// Every combination of the sweeps' values as overrides, the last sweep changing fastest; one empty one without sweeps.
 ///
-/// Ends of ranges may miss whole numbers: where the scenario has a whole number, values are rounded to one.
+/// Ends of ranges may miss whole numbers: where a key holds whole numbers, values are rounded to one.
 ///
 /// # Errors
 /// When a key is swept twice, or there are too many.
-pub fn combinations(base: &Scenario, sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, SweepError> {
+pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, SweepError> {
     let mut cells: Vec<Vec<String>> = vec![Vec::new()];
     for (k, sweep) in sweeps.iter().enumerate() {
         if sweeps[..k].iter().any(|before| before.key == sweep.key) {
@@ -138,7 +138,7 @@ pub fn combinations(base: &Scenario, sweeps: &[Sweep]) -> Result<Vec<Vec<String>
         if cells.len() * sweep.values.len() > MAX_CELLS {
             return Err(SweepError::Many(format!("the sweeps make more than {MAX_CELLS} combinations")));
         }
-        let whole = Draft::from_scenario(base).is_whole(&sweep.key);
+        let whole = keys::find(&sweep.key).is_some_and(Key::is_whole);
         let mut values: Vec<String> = Vec::with_capacity(sweep.values.len());
         for value in &sweep.values {
             let rounded = value.parse::<f64>().ok().filter(|_| whole).map(|value| format!("{}", libm::rint(value)));
@@ -201,11 +201,11 @@ mod tests {
     fn combinations_are_all_of_them_and_whole_where_they_must_be() {
         let sweeps: Vec<Sweep> =
             ["filter.length=100:150:3", "contact.disk=1,2"].map(|text| text.parse().expect(text)).into();
-        let cells = combinations(&Scenario::default(), &sweeps).expect("cells");
+        let cells = combinations(&sweeps).expect("cells");
         assert_eq!(cells.len(), 6);
         assert_eq!(cells[1], ["filter.length=100", "contact.disk=2"]);
         let sweep: Sweep = "filter.length=1:3:9".parse().expect("a sweep");
-        assert_eq!(combinations(&Scenario::default(), std::slice::from_ref(&sweep)).expect("cells").len(), 3);
-        assert!(combinations(&Scenario::default(), &[sweep.clone(), sweep]).is_err());
+        assert_eq!(combinations(std::slice::from_ref(&sweep)).expect("cells").len(), 3);
+        assert!(combinations(&[sweep.clone(), sweep]).is_err());
     }
 }

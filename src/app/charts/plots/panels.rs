@@ -28,7 +28,6 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
         ui,
         view,
         settings.xi2,
-        0.007,
         |sample| sample.judgement.speed > least,
         value,
         Shown {
@@ -57,7 +56,6 @@ pub fn force(ui: &mut Ui, view: &mut View<'_>) {
         ui,
         view,
         settings.xi1,
-        0.03,
         |_| true,
         value,
         Shown {
@@ -117,16 +115,12 @@ fn judging(
     ui: &mut Ui,
     view: &mut View<'_>,
     threshold: Threshold,
-    default: f64,
     is_judged: impl Fn(&Sample) -> bool + Copy,
     value: impl Fn(&Sample) -> f64,
     shown: Shown<'_>,
 ) {
     let which = view.which;
-    if let Some(on) = threshold.value() {
-        view.state.last_on[which] = Some(on);
-    }
-    let otherwise = view.state.last_on[which].unwrap_or(default);
+    let otherwise = view.state.otherwise[which];
     let high = view.state.held[which].unwrap_or_else(|| {
         let armed_from = view.run.plan.scenario().detection.armed_from;
         let judged = view.run.samples().filter(|sample| sample.time >= armed_from && is_judged(sample));
