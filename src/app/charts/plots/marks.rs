@@ -225,7 +225,7 @@ mod tests {
             let label = Rect::from_min_size(pos2(left, 11.0), vec2(80.0, 13.0));
             let placed = above(label, other);
             assert!(!placed.intersects(other), "{placed}");
-            assert_eq!(placed == label, left < 15.0 || left > 195.0, "{left}");
+            assert_eq!(placed == label, !(15.0..=195.0).contains(&left), "{left}");
         }
     }
 
