@@ -27,6 +27,7 @@
 //! Read [`model`], then [`scenario`], [`plant`], [`sensors`], [`detect`], then [`study`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
 //! `tests/it/misprints.rs` shows it.
 
+pub mod chart;
 pub mod detect;
 pub mod fingerprints;
 pub mod model;

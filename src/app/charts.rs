@@ -3,5 +3,6 @@
 pub mod axes;
 pub mod legend;
 pub mod notation;
+pub mod paint;
 pub mod plane;
 pub mod plots;

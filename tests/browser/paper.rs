@@ -45,7 +45,7 @@ fn a_figure_brings_its_preset_and_a_click_on_the_map_the_contact() {
     let mut job =
         FigureJob::new(Number::Eight, &find("figure-8").and_then(|p| p.scenario()).expect("valid")).expect("valid");
     job.finish();
-    let figure = job.figure();
+    let figure = job.chart();
     named(&mut page, &[&figure.title, &figure.caption]);
     let before = page.number("detectionTime").expect("figure 8 shows detections");
 
