@@ -1,6 +1,5 @@
 //! Charts: the live plots, the bending plane, and what all of them share.
 
-pub mod axes;
 pub mod legend;
 pub mod notation;
 pub mod paint;

@@ -68,7 +68,6 @@ pub fn color(ink: Ink, theme: &Theme) -> Color32 {
 }
 
 /// A map as a texture, a pixel for each cell; `soft` blends neighbours.
-#[must_use]
 pub fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> TextureHandle {
     let (columns, rows) = (map.columns, map.rows());
     // Rows from the top of the page down, columns from its left.

@@ -10,7 +10,7 @@ use crate::chart::{Axis, Map, Panel};
 /// Room beyond what is drawn, where no range is given, in shares of the range.
 const MARGIN: f64 = 0.05;
 /// The same at both ends of an axis of shares.
-const SHARES: f64 = 0.03;
+const SHARES: f64 = 0.04;
 /// Least distances of marks along both axes, in sizes of the text.
 const APART: [f64; 2] = [5.6, 2.9];
 /// The same on an axis of shares, whose marks are short.

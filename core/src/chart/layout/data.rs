@@ -106,7 +106,14 @@ impl Pen<'_> {
                     self.line(&[[at[0], top], [at[0], bottom]], paint, wide * t, None);
                 }
             }
-            self.mark(at, form, series.role, edge);
+            if form == Form::Ring && edge == Ink::White {
+                // On a map no one colour stands out everywhere.
+                let dark = Paint { ink: Ink::Black, opacity: VEIL };
+                self.add(Shape::Mark(at, form, 0.69 * t, dark, edge));
+                self.add(Shape::Mark(at, form, 0.6 * t, Ink::White.into(), edge));
+            } else {
+                self.mark(at, form, series.role, edge);
+            }
             last = Some(at);
         }
     }
