@@ -1,5 +1,6 @@
 //! A run at one instant, as a scene.
 
+pub mod ink;
 mod load;
 mod loci;
 mod robot;

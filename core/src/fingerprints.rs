@@ -2,11 +2,12 @@
 //!
 //! Natively and in the page the hashes are those of `tests/data/fingerprints.json`. Words are left out, numbers are all in.
 
+use crate::chart::Chart;
 use crate::run::{Run, simulate};
 use crate::scenario::preset::{PRESETS, find};
 use crate::scenario::{Scenario, ScenarioError};
 use crate::study::Job;
-use crate::study::figure::{Figure, FigureJob, Number};
+use crate::study::figure::{FigureJob, Number};
 use crate::study::map::MapJob;
 use crate::study::table2::Table2Job;
 use crate::study::tuning::watch::Method;
@@ -35,7 +36,7 @@ pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
     for number in Number::ALL {
         let mut job = FigureJob::new(number, &find(number.preset())?.scenario()?)?;
         job.finish();
-        add(format!("figure {number}"), hash(&figure(&job.figure())));
+        add(format!("figure {number}"), hash(&figure(&job.chart())));
     }
     let noisy = noisy()?;
     let mut job = Table2Job::new(&noisy, 5)?;
@@ -67,11 +68,13 @@ fn verdict(run: &Run) -> Value {
     json!([run.crossings(), run.detection(), run.contact_time()])
 }
 
-fn figure(figure: &Figure) -> Value {
-    let series: Vec<Value> = figure.series.iter().map(|series| json!(series.points)).collect();
-    let verticals: Vec<f64> = figure.verticals.iter().map(|vertical| vertical.x).collect();
-    let spans: Vec<Value> = figure.spans.iter().map(|span| json!(span.ends)).collect();
-    json!([figure.x.range, figure.y.range, series, verticals, spans])
+fn figure(chart: &Chart) -> Value {
+    // A figure of the paper has one panel.
+    let Some(panel) = chart.panels.first() else { return Value::Null };
+    let series: Vec<Value> = panel.series.iter().map(|series| json!(series.points)).collect();
+    let verticals: Vec<f64> = panel.verticals.iter().map(|vertical| vertical.x).collect();
+    let spans: Vec<Value> = panel.spans.iter().map(|span| json!(span.ends)).collect();
+    json!([panel.x.range, panel.y.range, series, verticals, spans])
 }
 
 /// FNV-1a over the JSON text, in which every number has the digits that give its bits back.

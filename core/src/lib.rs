@@ -23,10 +23,12 @@
 //! | Table II | | [`study::table2`] |
 //! | which contacts are detectable | 16, 19 | [`study::map`] |
 //! | false alarms, delay, which threshold to take | | [`study::tuning`] |
+//! | charts of all these, as data | | [`chart`] |
 //!
 //! Read [`model`], then [`scenario`], [`plant`], [`sensors`], [`detect`], then [`study`]. Where the printed equations are wrong, `docs/MODEL.md` says how, and
 //! `tests/it/misprints.rs` shows it.
 
+pub mod chart;
 pub mod detect;
 pub mod fingerprints;
 pub mod model;

@@ -1,20 +1,15 @@
-//! Drawings as files: a page of lines, marks and text, in SVG or as pixels.
-
-mod canvas;
-mod figure;
-mod map;
-mod study;
-mod ticks;
+//! Charts as files: vectors, pixels or numbers.
 
 use super::output::{Failure, NewFile};
-use canvas::{Canvas, Paper, register_fonts};
-use plotters::backend::{BitMapBackend, SVGBackend};
+use crate::scene::palette::Palette;
+use crate::show::ink;
+use centrode_core::chart::Chart;
+use centrode_core::chart::layout::{Ink, Page, layout};
+use centrode_core::chart::svg::svg;
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
 use std::io::Write;
 use std::path::Path;
-
-pub use figure::figure;
-pub use map::map;
-pub use study::study;
 
 /// How a drawing is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,91 +63,100 @@ impl Format {
     }
 }
 
-/// Writes a drawing to its file.
-pub fn write(file: &mut NewFile, drawn: Result<Vec<u8>, String>) -> Result<(), Failure> {
-    let bytes = drawn.map_err(|error| Failure::Input(format!("the drawing failed: {error}")))?;
+/// The page of a chart with one panel, and of one with several, in points; its text.
+const SINGLE: [f64; 2] = [1200.0, 820.0];
+const SEVERAL: [f64; 2] = [1280.0, 640.0];
+const TEXT: f64 = 15.0;
+const SMALL_TEXT: f64 = 14.0;
+/// Pixels to a point.
+const PIXELS: f32 = 2.0;
+/// The page's fonts: a drawing needs none of the machine.
+const FONTS: [&[u8]; 2] =
+    [include_bytes!("../../assets/fonts/Inter-Regular.otf"), include_bytes!("../../assets/fonts/Inter-SemiBold.otf")];
+
+/// Draws a chart to its file.
+pub fn write(file: &mut NewFile, chart: &Chart, format: Format) -> Result<(), Failure> {
+    let text = vectors(chart);
+    let bytes = match format {
+        Format::Svg => text.into_bytes(),
+        Format::Png => pixels(&text).map_err(|error| Failure::Input(format!("the drawing failed: {error}")))?,
+    };
     file.write_all(&bytes).map_err(|error| file.blame(&error))
 }
 
-/// Something that can be drawn on either kind of paper.
-trait Drawing {
-    /// Width and height of its page.
-    const SIZE: [u32; 2];
-
-    /// Draws it.
-    fn draw<P: Paper>(&self, canvas: &mut Canvas<P>);
+/// A chart as SVG, on white.
+fn vectors(chart: &Chart) -> String {
+    let single = chart.panels.len() < 2;
+    let (size, text) = if single { (SINGLE, TEXT) } else { (SEVERAL, SMALL_TEXT) };
+    let drawing = layout(chart, &Page { size, text, words: true });
+    let color = |ink: Ink| {
+        let [r, g, b, _] = ink::color(ink, &Palette::LIGHT, false).to_bytes();
+        [r, g, b]
+    };
+    svg(&drawing, chart, &color)
 }
 
-/// Units of the SVG's own grid to one of the page: the library rounds to whole ones.
-const FINE: u32 = 8;
-/// Pixels to a unit of the page, and points drawn to a pixel on either side, which are averaged.
-const PIXELS: u32 = 2;
-const POINTS: u32 = 2;
+/// An SVG as PNG.
+fn pixels(text: &str) -> Result<Vec<u8>, String> {
+    let mut options = Options::default();
+    let fonts = options.fontdb_mut();
+    FONTS.into_iter().for_each(|font| fonts.load_font_data(font.to_vec()));
+    let tree = Tree::from_str(text, &options).map_err(|error| error.to_string())?;
+    let size = tree.size();
+    let side = |points: f32| (points * PIXELS).round() as u32;
+    let mut pixmap = Pixmap::new(side(size.width()), side(size.height())).ok_or("it has no size")?;
+    resvg::render(&tree, Transform::from_scale(PIXELS, PIXELS), &mut pixmap.as_mut());
+    pixmap.encode_png().map_err(|error| error.to_string())
+}
 
-/// A drawing as a file's bytes.
-fn bytes<D: Drawing>(drawing: &D, format: Format) -> Result<Vec<u8>, String> {
-    register_fonts()?;
-    let [width, height] = D::SIZE;
-    match format {
-        Format::Svg => {
-            let mut text = String::new();
-            let mut canvas =
-                Canvas::new(SVGBackend::with_string(&mut text, (width * FINE, height * FINE)), f64::from(FINE));
-            drawing.draw(&mut canvas);
-            let lengths = canvas.finish()?;
-            let text = of_length(&text, &lengths);
-            let size = |scale| format!("width=\"{}\" height=\"{}\"", width * scale, height * scale);
-            Ok(text.replacen(&size(FINE), &size(1), 1).into_bytes())
-        }
-        Format::Png => {
-            let scale = PIXELS * POINTS;
-            let mut points = vec![0xff; (3 * width * scale * height * scale) as usize];
-            let paper = BitMapBackend::with_buffer(&mut points, (width * scale, height * scale));
-            let mut canvas = Canvas::new(paper, f64::from(scale));
-            drawing.draw(&mut canvas);
-            canvas.finish()?;
-            let pixels = averaged(&points, (width * scale) as usize);
-            encoded(&pixels, width * PIXELS, height * PIXELS)
-        }
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::chart::font::{FAMILY, STRONG_FAMILY, has, plain_width};
+    use centrode_core::chart::notation::{printed, runs};
+    use centrode_core::scenario::preset::find;
+    use centrode_core::study::Job;
+    use centrode_core::study::figure::{FigureJob, Number};
+
+    /// Width of a text as the font itself has it, in sizes of the text.
+    fn drawn(text: &str, strong: bool) -> f64 {
+        let (family, weight) = if strong { (STRONG_FAMILY, 600) } else { (FAMILY, 400) };
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9000\" height=\"99\"><text y=\"50\" font-size=\"10\" \
+             font-kerning=\"none\" font-family=\"{family}\" font-weight=\"{weight}\">{text}</text></svg>"
+        );
+        let mut options = Options::default();
+        FONTS.into_iter().for_each(|font| options.fontdb_mut().load_font_data(font.to_vec()));
+        let tree = Tree::from_str(&svg, &options).expect("an SVG");
+        f64::from(tree.root().bounding_box().width()) / 10.0
     }
-}
 
-/// Holds each text of an SVG to its length, so that a viewer without the font leaves everything in its place.
-fn of_length(svg: &str, lengths: &[f64]) -> String {
-    let mut parts = svg.split("<text ");
-    let mut held = parts.next().unwrap_or_default().to_owned();
-    for (part, length) in parts.zip(lengths) {
-        held += &format!("<text textLength=\"{length:.0}\" lengthAdjust=\"spacingAndGlyphs\" {part}");
-    }
-    held
-}
-
-/// Each square of points as one pixel, so that edges are smooth.
-fn averaged(points: &[u8], width: usize) -> Vec<u8> {
-    let (side, columns) = (POINTS as usize, width / POINTS as usize);
-    let rows = points.len() / 3 / width / side;
-    let mut pixels = Vec::with_capacity(3 * columns * rows);
-    for row in 0..rows {
-        for column in 0..columns {
-            for channel in 0..3 {
-                let square = (0..side * side).map(|k| {
-                    let (x, y) = (column * side + k % side, row * side + k / side);
-                    u32::from(points[3 * (y * width + x) + channel])
-                });
-                pixels.push((square.sum::<u32>() / (POINTS * POINTS)) as u8);
+    #[test]
+    fn the_layout_s_widths_are_the_font_s() {
+        for text in ["Fixed centrode deviation (mN·m)", "θεξΘωφδ‖±−–·²", "0123456789.,:;%°", "Größe éàçñ"]
+        {
+            for strong in [false, true] {
+                let (layout, font) = (plain_width(text, strong), drawn(text, strong));
+                assert!((layout - font).abs() < 0.02 * font, "{text:?}: {layout} for {font}");
             }
         }
     }
-    pixels
-}
 
-fn encoded(pixels: &[u8], width: u32, height: u32) -> Result<Vec<u8>, String> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
-    writer.write_image_data(pixels).map_err(|error| error.to_string())?;
-    writer.finish().map_err(|error| error.to_string())?;
-    Ok(file)
+    #[test]
+    fn the_font_has_every_character_of_every_figure() {
+        for number in Number::ALL {
+            let scenario = find(number.preset()).expect("its preset").scenario().expect("a scenario");
+            let mut job = FigureJob::new(number, &scenario).expect("a plan");
+            job.finish();
+            let svg = vectors(&job.chart());
+            let chart = job.chart();
+            let words = printed(&(chart.title + &chart.caption)) + &svg;
+            let missing: Vec<char> = runs(&words)
+                .iter()
+                .flat_map(|run| run.text.chars().collect::<Vec<_>>())
+                .filter(|character| !character.is_whitespace() && !has(*character))
+                .collect();
+            assert!(missing.is_empty(), "figure {number}: {missing:?}");
+        }
+    }
 }

@@ -2,9 +2,10 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
-use super::output::{Failure, NewFile, cell, finish_csv, write_record};
+use super::output::{Failure, NewFile};
+use centrode_core::chart::csv::csv;
 use centrode_core::study::Job;
-use centrode_core::study::figure::{Axis, Figure, FigureJob, Mark, Number, Style};
+use centrode_core::study::figure::{FigureJob, Number};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -33,46 +34,12 @@ impl FigureArgs {
         // A file that cannot be written is said before the work, not after it.
         let mut file = NewFile::create(&self.out)?;
         job.finish();
-        let figure = job.figure();
+        let chart = job.chart();
         match kind {
-            Kind::Drawing(format) => {
-                draw::write(&mut file, draw::figure(&figure, format))?;
-                file.finish()?;
-            }
-            Kind::Csv => csv(file, &figure)?,
+            Kind::Drawing(format) => draw::write(&mut file, &chart, format)?,
+            Kind::Csv => file.write_all(csv(&chart).as_bytes()).map_err(|error| file.blame(&error))?,
         }
-        Ok(writeln!(out, "figure {number}: {}, written to {}", figure.title, self.out.display())?)
+        file.finish()?;
+        Ok(writeln!(out, "figure {number}: {}, written to {}", chart.title, self.out.display())?)
     }
-}
-
-/// The figure's numbers, one row each: kind, name, x, y. A gap is a row with an empty y; of what stands over the
-/// whole height y is empty, and of a span both ends have a row.
-fn csv(file: NewFile, figure: &Figure) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(file);
-    let title = |axis: &Axis| format!("{} [{}]", axis.name, axis.si_unit);
-    write_record(&mut csv, ["kind", "series", "name", &title(&figure.x), &title(&figure.y)])?;
-    for (k, series) in figure.series.iter().enumerate() {
-        let kind = match series.style {
-            Style::Line => "line",
-            Style::Dashed => "dashed",
-            Style::Triangles => "triangles",
-            Style::Circles => "circles",
-        };
-        for [x, y] in &series.points {
-            write_record(&mut csv, [kind, &k.to_string(), &series.name, &cell(*x), &cell(*y)])?;
-        }
-    }
-    for vertical in &figure.verticals {
-        let kind = match vertical.mark {
-            Mark::Detection => "detection",
-            Mark::Contact => "contact",
-        };
-        write_record(&mut csv, [kind, "", vertical.name, &cell(vertical.x), ""])?;
-    }
-    for span in &figure.spans {
-        for x in span.ends {
-            write_record(&mut csv, ["span", "", span.name, &cell(x), ""])?;
-        }
-    }
-    finish_csv(csv)
 }

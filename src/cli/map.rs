@@ -2,9 +2,11 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
-use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
+use super::output::{Failure, NewFile, json};
+use centrode_core::chart::csv;
 use centrode_core::scenario::{Plan, Scenario};
 use centrode_core::study::Job;
+use centrode_core::study::map::chart::chart;
 use centrode_core::study::map::{Map, MapJob, largest_deviation, largest_epsilon};
 use clap::Args;
 use serde::Serialize;
@@ -93,13 +95,12 @@ impl MapArgs {
         let file = self.out.as_deref().map(NewFile::create).transpose()?;
         job.finish();
         let map = job.map();
-        match (file, kind) {
-            (Some(mut file), Some(Kind::Drawing(format))) => {
-                draw::write(&mut file, draw::map(map, &plan, format))?;
-                file.finish()?;
+        if let (Some(mut file), Some(kind)) = (file, kind) {
+            match kind {
+                Kind::Drawing(format) => draw::write(&mut file, &chart(map, &plan), format)?,
+                Kind::Csv => file.write_all(numbers(map).as_bytes()).map_err(|error| file.blame(&error))?,
             }
-            (Some(file), _) => csv(file, map)?,
-            (None, _) => {}
+            file.finish()?;
         }
         let report = Report {
             contact: plan.contact().map(|contact| Own {
@@ -120,16 +121,14 @@ impl MapArgs {
     }
 }
 
-fn csv(file: NewFile, map: &Map) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(file);
-    write_record(&mut csv, ["arc_length [m]", "bend [rad]", "largest_xi2 [m]", "largest_epsilon_tau [1]"])?;
-    for (row, &arc_length) in map.arc_lengths.iter().enumerate() {
-        for (column, &bend) in map.bends.iter().enumerate() {
-            let k = map.cell(row, column);
-            write_record(&mut csv, [arc_length, bend, map.deviation[k], map.epsilon[k]].map(cell))?;
-        }
-    }
-    finish_csv(csv)
+/// Every cell, a row each.
+fn numbers(map: &Map) -> String {
+    let columns = map.bends.len();
+    let row = |cell: usize| {
+        [map.arc_lengths[cell / columns], map.bends[cell % columns], map.deviation[cell], map.epsilon[cell]]
+    };
+    let header = ["arc_length [m]", "bend [rad]", "largest_xi2 [m]", "largest_epsilon_tau [1]"];
+    csv::table(header, (0..map.deviation.len()).map(row))
 }
 
 fn text(out: &mut impl Write, report: &Report<'_>) -> io::Result<()> {

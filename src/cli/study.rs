@@ -10,6 +10,7 @@ use super::output::{Failure, NewFile, json};
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::Xi1Rule;
 use centrode_core::study::Job;
+use centrode_core::study::tuning::chart::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::sweep::{Sweep, SweepError, combinations};
 use centrode_core::study::tuning::watch::Method;
@@ -149,7 +150,7 @@ impl StudyArgs {
             table::csv(file, &study, partial)?;
         }
         if let (Some(mut file), Some(format)) = (drawing, format) {
-            draw::write(&mut file, draw::study(&study, &wish, &verdict, partial, format))?;
+            draw::write(&mut file, &chart(&study, &wish, &verdict, partial), format)?;
             file.finish()?;
         }
         if self.json {

@@ -44,7 +44,7 @@ fn a_figure_has_a_scenario_of_its_own_and_a_click_on_the_map_brings_the_contact(
     let mut job =
         FigureJob::new(Number::Eight, &find("figure-8").and_then(|p| p.scenario()).expect("valid")).expect("valid");
     job.finish();
-    let figure = job.figure();
+    let figure = job.chart();
     named(&mut page, &[&figure.title, &figure.caption]);
     page.click("Button", "Use this scenario");
     page.wait("the scenario", |page| page.widgets().iter().all(|w| w.label != "Use this scenario").then_some(()));

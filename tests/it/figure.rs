@@ -1,8 +1,9 @@
 //! `centrode figure` and the drawings of `centrode map`, as files.
 
+use centrode_core::chart::Chart;
 use centrode_core::scenario::preset::find;
 use centrode_core::study::Job;
-use centrode_core::study::figure::{Figure, FigureJob, Number};
+use centrode_core::study::figure::{FigureJob, Number};
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
@@ -31,11 +32,11 @@ fn written(name: &str, args: &[&str], file: &str) -> Vec<u8> {
     bytes
 }
 
-fn figure(number: Number) -> Figure {
+fn figure(number: Number) -> Chart {
     let scenario = find(number.preset()).and_then(|preset| preset.scenario()).expect("its preset");
     let mut job = FigureJob::new(number, &scenario).expect("valid");
     job.finish();
-    job.figure()
+    job.chart()
 }
 
 /// Width, height, and share of pixels that are not white.
@@ -43,20 +44,21 @@ fn picture(bytes: &[u8]) -> (u32, u32, f64) {
     let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().expect("a PNG");
     let mut pixels = vec![0; reader.output_buffer_size().expect("a size")];
     let info = reader.next_frame(&mut pixels).expect("pixels");
-    let inked = pixels.chunks(3).filter(|pixel| pixel.iter().any(|&value| value < 200)).count();
+    let inked = pixels.chunks(info.color_type.samples()).filter(|pixel| pixel.iter().any(|&value| value < 200)).count();
     (info.width, info.height, inked as f64 / f64::from(info.width * info.height))
 }
 
 #[test]
 fn every_figure_is_written_as_a_drawing_and_as_numbers() {
     for number in Number::ALL {
-        let (digit, figure) = (number.to_string(), figure(number));
+        let (digit, chart) = (number.to_string(), figure(number));
+        let [figure] = &chart.panels[..] else { panic!("figure {digit} has one panel") };
         let name = |kind: &str| format!("figure-{digit}-{kind}");
         let svg = String::from_utf8(written(&name("svg"), &["figure", &digit], "f.svg")).expect("text");
         assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("NaN"), "figure {digit}");
         let count = |part: &str| svg.matches(part).count();
         assert!(count("<text ") > 15 && count("<text ") == count("textLength=") && count("<text ") == count("</text>"));
-        for word in ["Simulated", figure.x.unit, figure.y.unit, figure.title.split(' ').next().expect("a word")] {
+        for word in ["Simulated", figure.x.unit, figure.y.unit, chart.title.split(' ').next().expect("a word")] {
             assert!(svg.contains(word), "figure {digit} lacks {word:?}");
         }
         let (width, height, inked) = picture(&written(&name("png"), &["figure", &digit], "f.PNG"));

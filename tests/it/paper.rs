@@ -1,10 +1,11 @@
 //! What the paper's text says of its measurements, held against simulated runs. Where the two disagree, `docs/PAPER.md` says so.
 
+use centrode_core::chart::{Panel, Role, Style};
 use centrode_core::run::{Run, simulate};
 use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{Place, Scenario, Start, Threshold};
 use centrode_core::study::Job;
-use centrode_core::study::figure::{Figure, FigureJob, Number, Role, Style};
+use centrode_core::study::figure::{FigureJob, Number};
 use centrode_core::study::seed::repeat_seed;
 use centrode_core::study::table2::{Statistic, Table2, Table2Job};
 use std::f64::consts::FRAC_PI_2;
@@ -13,10 +14,10 @@ fn preset(name: &str) -> Scenario {
     find(name).and_then(|preset| preset.scenario()).expect(name)
 }
 
-fn figure(number: Number) -> Figure {
+fn figure(number: Number) -> Panel {
     let mut job = FigureJob::new(number, &preset(number.preset())).expect("valid");
     job.finish();
-    job.figure()
+    job.chart().panels.remove(0)
 }
 
 fn table(repeats: usize) -> Table2 {

@@ -1,6 +1,7 @@
 //! Which contacts are detectable: for each place and bend at contact, how far the centrode will leave the model's, and how
 //! much the load cells may err before the joint forces say nothing.
 
+pub mod chart;
 pub mod contour;
 mod course;
 

@@ -6,6 +6,7 @@
 //! its pieces, in whichever order. Reading order: `sweep` (what is compared), `levels` (which thresholds), `watch`
 //! (first alarms of one run), `tally` and `rate` (what they come to), `recommend` (which threshold to take), `remote` (a study that a worker makes).
 
+pub mod chart;
 pub mod levels;
 pub mod rate;
 pub mod recommend;

@@ -1,59 +1,28 @@
 //! Symbols, subscripts and small notes, painted.
 
 use crate::app::theme::Theme;
+use centrode_core::chart::font::LOW;
+pub use centrode_core::chart::notation::number;
+use centrode_core::chart::notation::runs;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, FontFamily, FontId, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, pos2, vec2};
 
-/// Text in which `_x` is a subscript and `‖` comes from a font that has it.
+/// Text in which `_x` is a subscript.
 #[must_use]
 pub fn job(text: &str, size: f32, color: Color32) -> LayoutJob {
-    let mut job = LayoutJob::default();
-    append(&mut job, text, size, color);
-    job
+    job_in(text, &FontFamily::Proportional, size, color)
 }
 
-/// Adds text to a job, as [`job`] writes it.
-pub fn append(job: &mut LayoutJob, text: &str, size: f32, color: Color32) {
-    let format =
-        |family, size, valign| TextFormat { font_id: FontId::new(size, family), color, valign, ..Default::default() };
-    let body = |plain: &mut String, job: &mut LayoutJob| {
-        if !plain.is_empty() {
-            job.append(plain, 0.0, format(FontFamily::Proportional, size, Align::Center));
-            plain.clear();
-        }
-    };
-    let mut plain = String::new();
-    let mut characters = text.chars();
-    while let Some(character) = characters.next() {
-        let (piece, format) = match character {
-            '_' => match characters.next() {
-                Some(low) => (low, format(FontFamily::Proportional, 0.76 * size, Align::BOTTOM)),
-                None => break,
-            },
-            '‖' => ('‖', format(FontFamily::Monospace, size, Align::Center)),
-            _ => {
-                plain.push(character);
-                continue;
-            }
-        };
-        body(&mut plain, job);
-        job.append(piece.encode_utf8(&mut [0; 4]), 0.0, format);
-    }
-    body(&mut plain, job);
-}
-
-/// A number with a true minus sign; `–` where it is not defined.
+/// The same in a weight.
 #[must_use]
-pub fn number(value: f64, decimals: usize) -> String {
-    if !value.is_finite() {
-        return "–".into();
+pub fn job_in(text: &str, family: &FontFamily, size: f32, color: Color32) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    for run in runs(text) {
+        let (size, valign) = if run.low { (LOW as f32 * size, Align::BOTTOM) } else { (size, Align::Center) };
+        let font_id = FontId::new(size, family.clone());
+        job.append(&run.text, 0.0, TextFormat { font_id, color, valign, ..Default::default() });
     }
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(size) if size.bytes().all(|b| b == b'0' || b == b'.') => size.into(),
-        Some(size) => format!("−{size}"),
-        None => text,
-    }
+    job
 }
 
 /// Where a box of `size` goes beside `anchor` so that it stays within `bounds`: right of it, else left; above it, else below.
@@ -90,23 +59,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn subscripts_and_norms_get_their_own_sections() {
+    fn subscripts_get_their_own_sections() {
         let job = job("‖c_m − c_s‖ (mm)", 12.0, Color32::WHITE);
         assert_eq!(job.text, "‖cm − cs‖ (mm)");
         let sizes: Vec<f32> = job.sections.iter().map(|section| section.format.font_id.size).collect();
-        assert!(
-            sizes.iter().any(|&size| size < 10.0) && sizes.iter().filter(|&&size| size == 12.0).count() >= 4,
-            "{sizes:?}"
-        );
-    }
-
-    #[test]
-    fn numbers_have_a_minus_and_no_negative_zero() {
-        assert_eq!(number(-1.25, 1), "−1.2");
-        assert_eq!(number(-0.001, 2), "0.00");
-        assert_eq!(number(7.0, 2), "7.00");
-        assert_eq!(number(f64::NAN, 2), "–");
-        assert_eq!(number(f64::INFINITY, 2), "–");
+        assert_eq!(sizes, [12.0, 9.12, 12.0, 9.12, 12.0]);
     }
 
     #[test]

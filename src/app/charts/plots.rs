@@ -3,7 +3,6 @@
 //! Thresholds are lines that can be dragged, typed and switched off; the playback position is scrubbed anywhere else.
 
 mod axis;
-mod decimate;
 mod frame;
 mod marks;
 mod panels;

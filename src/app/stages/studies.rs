@@ -1,9 +1,10 @@
 //! Work that takes longer than a frame: figures, Table II and the map, a few pieces a frame.
 
 use crate::app::stages::stage::Stage;
+use centrode_core::chart::Chart;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::{Contact, Place};
-use centrode_core::study::figure::{Figure, FigureJob};
+use centrode_core::study::figure::FigureJob;
 use centrode_core::study::map::{Map, MapJob};
 use centrode_core::study::table2::{Row, Table2, Table2Job};
 use centrode_core::study::{Job, Progress};
@@ -19,7 +20,7 @@ const ROWS: usize = 9;
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// A figure.
-    Figure(Figure),
+    Figure(Chart),
     /// Both tables, and the experiments behind the simulated one.
     Table(Box<Table2>, Vec<Row>),
     /// The map.
@@ -62,7 +63,7 @@ impl Work {
 
     fn found(&self) -> Found {
         match self {
-            Self::Figure(job) => Found::Figure(job.figure()),
+            Self::Figure(job) => Found::Figure(job.chart()),
             Self::Table(job) => Found::Table(Box::new(job.table()), job.rows().to_vec()),
             Self::Map(job) => Found::Map(job.map().clone()),
         }

@@ -28,6 +28,8 @@ const BESIDE: f32 = 700.0;
 /// Least height of a picture.
 const LEAST: f32 = 176.0;
 const GAP: f32 = 12.0;
+/// Size of the charts' text, points.
+const TEXT: f32 = 11.0;
 /// Height of the command below the pictures.
 const FOOT: f32 = 20.0;
 /// A finger holds what is this near, points.

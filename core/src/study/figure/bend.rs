@@ -1,11 +1,11 @@
 //! Figure 7: Θ against θL without contact, beside the bounds from which the load cells' error is read.
 
 use super::bound::{curve, moment};
-use super::job::Content;
+use super::content::Content;
 use super::plans::without_contact;
 use super::thin::Thinner;
-use super::words::{self, ANGLE};
-use super::{Axis, Figure, Role, Series, Style};
+use super::words::{self, angle};
+use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
 use crate::run::Simulation;
@@ -44,7 +44,7 @@ impl OverBend {
         for sample in Simulation::new(&self.plan).filter(|sample| moving(sample.time)) {
             points.push([sample.theta_l, sample.judgement.residual]);
         }
-        Series { name: "Θ".into(), role: Role::Force, style: Style::Line, points: points.finish() }
+        Series::new("Θ", Role::Force, Style::Line, points.finish())
     }
 
     fn bound(&self, multiple: f64) -> Option<Series> {
@@ -56,12 +56,12 @@ impl OverBend {
         let [from, to] = self.ends().map(bend_from_theta_l);
         let bends: Vec<f64> = (0..POINTS).map(|k| from + (to - from) * (k as f64 / (POINTS - 1) as f64)).collect();
         let own = multiple == 1.0;
-        Some(Series {
-            name: format!("ε_c for ε_τ = {}", words::percent(epsilon)),
-            role: if own { Role::Bound } else { Role::Member(if multiple < 1.0 { 0.15 } else { 0.75 }) },
-            style: Style::Dashed,
-            points: curve(&self.plan, &bends, epsilon, Segment::common_error_bound),
-        })
+        Some(Series::new(
+            format!("ε_c for ε_τ = {}", words::percent(epsilon)),
+            if own { Role::Bound } else { Role::Member(if multiple < 1.0 { 0.15 } else { 0.75 }) },
+            Style::Dashed,
+            curve(&self.plan, &bends, epsilon, Segment::common_error_bound),
+        ))
     }
 }
 
@@ -77,17 +77,16 @@ impl Content for OverBend {
         }
     }
 
-    fn figure(&self) -> Figure {
+    fn chart(&self) -> Chart {
         let scenario = self.plan.scenario();
         let ends = self.ends();
-        Figure {
-            title: String::new(),
-            x: Axis { range: Some([ends[0].min(ends[1]), ends[0].max(ends[1])]), ..ANGLE },
-            y: moment("Θ", None),
+        let panel = Panel {
             series: self.series.clone(),
-            verticals: Vec::new(),
-            spans: Vec::new(),
-            equal_scales: false,
+            ..Panel::new(Axis { range: Some([ends[0].min(ends[1]), ends[0].max(ends[1])]), ..angle() }, moment("Θ"))
+        };
+        Chart {
+            title: String::new(),
+            panels: vec![panel],
             caption: words::caption(&[
                 words::robot(scenario),
                 words::motion(scenario),

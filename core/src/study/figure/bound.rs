@@ -1,8 +1,8 @@
 //! Figure 3: the bound ε_c (Eq. 16) against θL, for several relative errors of the load cells.
 
-use super::job::Content;
-use super::words::{self, ANGLE, MILLI};
-use super::{Axis, Figure, Role, Series, Style};
+use super::content::Content;
+use super::words::{self, MILLI, angle};
+use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::model::configuration::{bend_from_theta_l, theta_l_from_bend};
 use crate::model::{Configuration, Segment, Vec3};
 use crate::scenario::{Plan, Scenario};
@@ -71,8 +71,8 @@ pub fn curve(plan: &Plan, bends: &[f64], epsilon: f64, rule: Rule) -> Vec<[f64; 
 }
 
 /// The axis of Θ and of its bounds.
-pub fn moment(name: &'static str, range: Option<[f64; 2]>) -> Axis {
-    Axis { name, si_unit: "N·m", unit: "mN·m", scale: MILLI, range }
+pub fn moment(name: &'static str) -> Axis {
+    Axis::new(name, "N·m", "mN·m", MILLI)
 }
 
 impl Content for Bounds {
@@ -97,21 +97,20 @@ impl Content for Bounds {
                 curve(&self.plan, &self.bends, own, Segment::independent_error_bound),
             ),
         };
-        self.series.push(Series { name, role, style, points });
+        self.series.push(Series::new(name, role, style, points));
     }
 
-    fn figure(&self) -> Figure {
+    fn chart(&self) -> Chart {
         let scenario = self.plan.scenario();
         let ends = [self.bends.first(), self.bends.last()].map(|bend| theta_l_from_bend(bend.copied().unwrap_or(0.0)));
         let tubes = words::stiffness(self.plan.segment());
-        Figure {
-            title: String::new(),
-            x: Axis { range: Some([ends[0].min(ends[1]), ends[0].max(ends[1])]), ..ANGLE },
-            y: moment("ε_c", None),
+        let panel = Panel {
             series: self.series.clone(),
-            verticals: Vec::new(),
-            spans: Vec::new(),
-            equal_scales: false,
+            ..Panel::new(Axis { range: Some([ends[0].min(ends[1]), ends[0].max(ends[1])]), ..angle() }, moment("ε_c"))
+        };
+        Chart {
+            title: String::new(),
+            panels: vec![panel],
             caption: words::caption(&[
                 "ε_c of Eq. 16 of the free segment, whose load cells read τ/(1 − ε_τ)".into(),
                 words::robot(scenario),

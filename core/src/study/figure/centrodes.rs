@@ -1,9 +1,9 @@
 //! Figure 4: loci of the end disk's fixed centrode with and without constraint, and both backbones.
 
-use super::job::Content;
+use super::content::Content;
 use super::plans::without_contact;
 use super::words::{self, MILLI};
-use super::{Axis, Figure, Role, Series, Style};
+use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Configuration, Rate, Vec3};
 use crate::plant::{Plant, Shape};
@@ -58,19 +58,19 @@ impl Centrodes {
         let (free, held) = (Plant::new(&self.free), Plant::new(&self.plan));
         let mut series = Vec::new();
         for configuration in self.even(BACKBONES) {
-            series.push(Series {
-                name: "backbone without constraint".into(),
-                role: Role::Robot,
-                style: Style::Line,
-                points: self.backbone(&configuration, &free.shape(configuration)),
-            });
+            series.push(Series::new(
+                "backbone without constraint",
+                Role::Robot,
+                Style::Line,
+                self.backbone(&configuration, &free.shape(configuration)),
+            ));
             if held.held(&configuration).is_some() {
-                series.push(Series {
-                    name: "backbone with constraint".into(),
-                    role: Role::Constrained,
-                    style: Style::Dashed,
-                    points: self.backbone(&configuration, &held.shape(configuration)),
-                });
+                series.push(Series::new(
+                    "backbone with constraint",
+                    Role::Constrained,
+                    Style::Dashed,
+                    self.backbone(&configuration, &held.shape(configuration)),
+                ));
             }
         }
         series
@@ -97,33 +97,33 @@ impl Content for Centrodes {
     fn piece(&mut self, k: usize) {
         match k {
             0 => self.series.extend(self.backbones()),
-            1 => self.series.push(Series {
-                name: "centrode without constraint, c_m".into(),
-                role: Role::Model,
-                style: Style::Triangles,
-                points: self.locus(&self.free),
-            }),
-            _ if self.plan.contact().is_some() => self.series.push(Series {
-                name: "centrode with constraint, c_c".into(),
-                role: Role::Constrained,
-                style: Style::Circles,
-                points: self.locus(&self.plan),
-            }),
+            1 => self.series.push(Series::new(
+                "centrode without constraint, c_m",
+                Role::Model,
+                Style::Triangles,
+                self.locus(&self.free),
+            )),
+            _ if self.plan.contact().is_some() => self.series.push(Series::new(
+                "centrode with constraint, c_c",
+                Role::Constrained,
+                Style::Circles,
+                self.locus(&self.plan),
+            )),
             _ => {}
         }
     }
 
-    fn figure(&self) -> Figure {
+    fn chart(&self) -> Chart {
         let scenario = self.plan.scenario();
-        let axis = |name| Axis { name, si_unit: "m", unit: "mm", scale: MILLI, range: None };
-        Figure {
-            title: String::new(),
-            x: axis("across the base"),
-            y: axis("along the straight backbone"),
-            series: self.series.clone(),
-            verticals: Vec::new(),
-            spans: Vec::new(),
+        let axis = |name| Axis::new(name, "m", "mm", MILLI);
+        let panel = Panel {
             equal_scales: true,
+            series: self.series.clone(),
+            ..Panel::new(axis("across the base"), axis("along the straight backbone"))
+        };
+        Chart {
+            title: String::new(),
+            panels: vec![panel],
             caption: words::caption(&[
                 "in the bending plane, marks at equal steps of θ_L".into(),
                 words::robot(scenario),

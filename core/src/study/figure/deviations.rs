@@ -1,10 +1,10 @@
 //! Figure 8: ‖c_m − c_s‖ over time, repeated, with ξ2 and the detections.
 
-use super::job::Content;
+use super::content::Content;
 use super::plans::{REPEATS, repeats};
 use super::thin::Thinner;
-use super::words::{self, MILLI, TIME};
-use super::{Axis, Figure, Mark, Role, Series, Span, Style, Vertical};
+use super::words::{self, MILLI, time};
+use crate::chart::{Axis, Chart, Panel, Role, Series, Span, Style, Vertical};
 use crate::run::Simulation;
 use crate::scenario::{Plan, ScenarioError};
 
@@ -75,38 +75,37 @@ impl Content for Deviations {
         }
         self.contact = self.contact.or(simulation.contact_time());
         if let Some(found) = simulation.detection() {
-            self.verticals.push(Vertical { name: "detection", x: found.time, mark: Mark::Detection });
+            self.verticals.push(Vertical { name: "detection", x: found.time, role: Role::Detection });
         }
-        self.series.push(Series {
-            name: "||c_m − c_s||".into(),
-            role: Role::Sensor,
-            style: Style::Line,
-            points: curve.finish(),
-        });
+        self.series.push(Series::new("||c_m − c_s||", Role::Sensor, Style::Line, curve.finish()));
     }
 
-    fn figure(&self) -> Figure {
+    fn chart(&self) -> Chart {
         let scenario = self.plan.scenario();
         let detection = &scenario.detection;
         let ends = self.ends();
         let mut series = self.series.clone();
-        series.extend(detection.xi2.value().map(|xi2| Series {
-            name: "ξ2".into(),
-            role: Role::Bound,
-            style: Style::Dashed,
-            points: ends.map(|time| [time, xi2]).into(),
-        }));
+        series.extend(
+            detection
+                .xi2
+                .value()
+                .map(|xi2| Series::new("ξ2", Role::Bound, Style::Dashed, ends.map(|time| [time, xi2]).into())),
+        );
         let mut verticals = self.verticals.clone();
-        verticals.extend(self.contact.map(|x| Vertical { name: "contact begins", x, mark: Mark::Contact }));
+        verticals.extend(self.contact.map(|x| Vertical { name: "contact begins", x, role: Role::Contact }));
         let unarmed = [ends[0], detection.armed_from.min(ends[1])];
-        Figure {
-            title: String::new(),
-            x: Axis { range: Some(ends), ..TIME },
-            y: Axis { name: "||c_m − c_s||", si_unit: "m", unit: "mm", scale: MILLI, range: Some([0.0, self.top()]) },
+        let panel = Panel {
+            spans: (unarmed[1] > unarmed[0]).then_some(Span { name: "not armed", ends: unarmed }).into_iter().collect(),
             series,
             verticals,
-            spans: (unarmed[1] > unarmed[0]).then_some(Span { name: "not armed", ends: unarmed }).into_iter().collect(),
-            equal_scales: false,
+            ..Panel::new(
+                Axis { range: Some(ends), ..time() },
+                Axis { range: Some([0.0, self.top()]), ..Axis::new("||c_m − c_s||", "m", "mm", MILLI) },
+            )
+        };
+        Chart {
+            title: String::new(),
+            panels: vec![panel],
             caption: words::caption(&[
                 words::robot(scenario),
                 words::motion(scenario),

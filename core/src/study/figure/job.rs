@@ -1,9 +1,11 @@
 //! Which figures there are, and the work they take.
 
-use super::{Figure, bend, bound, centrodes, deviations, residuals};
+use super::content::Content;
+use super::{bend, bound, centrodes, deviations, residuals};
+use crate::chart::Chart;
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use crate::study::{Job, Progress};
-use std::fmt::{self, Debug, Display};
+use std::fmt::{self, Display};
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -86,16 +88,6 @@ impl FromStr for Number {
     }
 }
 
-/// What one figure is made of, a piece at a time.
-pub(super) trait Content: Debug + Send + Sync {
-    /// Number of pieces.
-    fn pieces(&self) -> usize;
-    /// Does piece `k`, after all before it.
-    fn piece(&mut self, k: usize);
-    /// What there is so far.
-    fn figure(&self) -> Figure;
-}
-
 /// A figure being made: each step is at most one run of the experiment.
 #[derive(Debug)]
 pub struct FigureJob {
@@ -129,8 +121,8 @@ impl FigureJob {
 
     /// The figure as far as it is made.
     #[must_use]
-    pub fn figure(&self) -> Figure {
-        Figure { title: self.number.title().into(), ..self.content.figure() }
+    pub fn chart(&self) -> Chart {
+        Chart { title: self.number.title().into(), ..self.content.chart() }
     }
 }
 

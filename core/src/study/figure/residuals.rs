@@ -1,11 +1,11 @@
 //! Figure 6: Θ over time with and without contact, repeated.
 
 use super::bound::moment;
-use super::job::Content;
+use super::content::Content;
 use super::plans::{REPEATS, repeats, without_contact};
 use super::thin::Thinner;
-use super::words::{self, TIME};
-use super::{Axis, Figure, Mark, Role, Series, Style, Vertical};
+use super::words::{self, time};
+use crate::chart::{Axis, Chart, Panel, Role, Series, Style, Vertical};
 use crate::run::Simulation;
 use crate::scenario::{Plan, ScenarioError};
 
@@ -42,20 +42,20 @@ impl Content for Residuals {
         self.contact = self.contact.or(simulation.contact_time());
         let (name, role) =
             if plan.contact().is_some() { ("with contact", Role::Force) } else { ("without contact", Role::Robot) };
-        self.series.push(Series { name: name.into(), role, style: Style::Line, points: curve.finish() });
+        self.series.push(Series::new(name, role, Style::Line, curve.finish()));
     }
 
-    fn figure(&self) -> Figure {
+    fn chart(&self) -> Chart {
         let scenario = self.plan.scenario();
-        let mark = |x| Vertical { name: "contact begins", x, mark: Mark::Contact };
-        Figure {
-            title: String::new(),
-            x: Axis { range: Some([0.0, scenario.motion.end]), ..TIME },
-            y: moment("Θ", None),
+        let mark = |x| Vertical { name: "contact begins", x, role: Role::Contact };
+        let panel = Panel {
             series: self.series.clone(),
             verticals: self.contact.map(mark).into_iter().collect(),
-            spans: Vec::new(),
-            equal_scales: false,
+            ..Panel::new(Axis { range: Some([0.0, scenario.motion.end]), ..time() }, moment("Θ"))
+        };
+        Chart {
+            title: String::new(),
+            panels: vec![panel],
             caption: words::caption(&[
                 words::robot(scenario),
                 words::motion(scenario),

@@ -1,6 +1,7 @@
 //! Captions: every parameter that matters, as a person reads it.
 
-use super::Axis;
+use crate::chart::Axis;
+use crate::chart::ticks::Steps;
 use crate::model::Segment;
 use crate::model::configuration::theta_l_from_bend;
 use crate::scenario::text::number;
@@ -8,9 +9,15 @@ use crate::scenario::{CellErrors, Place, Start};
 use crate::scenario::{Plan, Scenario};
 
 /// Time.
-pub const TIME: Axis = Axis { name: "t", si_unit: "s", unit: "s", scale: 1.0, range: None };
+pub fn time() -> Axis {
+    Axis::new("t", "s", "s", 1.0)
+}
+
 /// The tangent angle θL.
-pub const ANGLE: Axis = Axis { name: "θ_L", si_unit: "rad", unit: "°", scale: DEGREES, range: None };
+pub fn angle() -> Axis {
+    Axis { steps: Steps::Degrees, ..Axis::new("θ_L", "rad", "°", DEGREES) }
+}
+
 /// One degree's worth of a radian, inverted.
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
 /// Lengths are shown in mm, moments in mN·m.

@@ -44,30 +44,6 @@ pub fn wilson(share: f64, of: f64) -> [f64; 2] {
     [(middle - half) / (1.0 + square), (middle + half) / (1.0 + square)]
 }
 
-/// Where a share lies on an arcsine scale, from 0 to 1: intervals from equally many runs are about equally wide there,
-/// and both ends are spread.
-#[must_use]
-pub fn spread(share: f64) -> f64 {
-    libm::asin(sqrt(share.clamp(0.0, 1.0))) / std::f64::consts::FRAC_PI_2
-}
-
-/// Percentages worth marking on such a scale, those that matter most first.
-pub const PERCENTS: [u8; 13] = [0, 100, 50, 5, 95, 20, 80, 1, 99, 10, 90, 35, 65];
-
-/// Percentages for a scale on which marks are to be at least `apart` from each other, as a share of its length.
-#[must_use]
-pub fn percents(apart: f64) -> Vec<u8> {
-    let mut marks: Vec<u8> = Vec::new();
-    for percent in PERCENTS {
-        let at = |percent: u8| spread(f64::from(percent) / 100.0);
-        if marks.iter().all(|&mark| (at(mark) - at(percent)).abs() >= apart) {
-            marks.push(percent);
-        }
-    }
-    marks.sort_unstable();
-    marks
-}
-
 /// The fewest runs that can show, by having no alarm in any, that a rate is at most `rate` (above 0).
 #[must_use]
 pub fn runs_to_show(rate: f64) -> u64 {
@@ -105,13 +81,6 @@ mod tests {
             }
             assert!((0.91..=0.99).contains(&covered), "{truth}: {covered}");
         }
-    }
-
-    #[test]
-    fn marks_on_the_scale_keep_their_distance() {
-        assert_eq!(percents(0.2), [0, 20, 50, 80, 100]);
-        assert_eq!(percents(0.0).len(), PERCENTS.len());
-        assert_eq!([0.0, 0.5, 1.0].map(spread).map(|x| (x * 1e12).round() / 1e12), [0.0, 0.5, 1.0]);
     }
 
     #[test]

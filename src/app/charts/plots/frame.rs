@@ -2,10 +2,10 @@
 
 use crate::app::charts::notation::{job, note};
 use crate::app::charts::plots::axis::{Axis, Steps};
-use crate::app::charts::plots::decimate::{Column, columns, spans};
 use crate::app::charts::plots::{Touch, View, end};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use centrode_core::chart::decimate::{Column, columns, spans};
 use centrode_core::run::{Run, Sample};
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Rect, Sense, Shape, Stroke, Ui};
@@ -151,7 +151,7 @@ impl Frame {
         style: Style,
     ) -> Vec<Vec<Column>> {
         let samples = run.samples().map(|sample| (sample.time, value(&sample)));
-        let stretches = columns(samples, &self.time, self.pixel);
+        let stretches = columns(samples, self.time.scale(), self.pixel.into());
         let painter = painter.with_clip_rect(self.data.intersect(painter.clip_rect()));
         for stretch in &stretches {
             let line: Vec<Pos2> = stretch
@@ -159,9 +159,10 @@ impl Frame {
                 .flat_map(|column| {
                     // Less than a pixel of spread is one point: fewer to draw, and smoother.
                     let (low, high) = (values.at(column.low), values.at(column.high));
+                    let x = column.x as f32;
                     let flat = (low - high).abs() < self.pixel;
-                    let middle = pos2(column.x, 0.5 * (low + high));
-                    let ends = column.values().map(|value| pos2(column.x, values.at(value)));
+                    let middle = pos2(x, 0.5 * (low + high));
+                    let ends = column.values().map(move |value| pos2(x, values.at(value)));
                     std::iter::once(middle).filter(move |_| flat).chain(ends.filter(move |_| !flat))
                 })
                 .collect();
@@ -179,6 +180,7 @@ impl Frame {
         let top = values.range()[1];
         let y = self.data.top();
         for (from, to) in spans(stretches, |column| column.high > top) {
+            let (from, to) = (from as f32, to as f32);
             let bar = Rect::from_min_max(pos2(from - 0.5, y), pos2(to + 0.5, y + 3.0)).intersect(self.data);
             painter.rect_filled(bar, 0.0, color.gamma_multiply(0.45));
             if to - from > 8.0 {

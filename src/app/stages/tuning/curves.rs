@@ -1,185 +1,64 @@
 //! Two curves over all thresholds, each with its band: contacts found, and delay, against false alarms.
-//!
-//! Shares lie on an arcsine scale: both ends, where thresholds are chosen, are spread, and intervals from equally many
-//! runs are about equally wide everywhere.
 
-use crate::app::charts::axes::Chart;
 use crate::app::charts::notation::{self, job, number};
-use crate::app::charts::plots::{Steps, Tick};
+use crate::app::charts::paint::{self, Place};
 use crate::app::command::Command;
 use crate::app::stages::tuner::LATE;
 use crate::app::stages::tuning::words::{digits, percent};
-use crate::app::stages::tuning::{Named, REACH, View, color, taken, title};
+use crate::app::stages::tuning::{Named, REACH, TEXT, View, taken};
 use crate::app::theme::Theme;
+use centrode_core::chart::{Chart, Panel, Role, Style};
 use centrode_core::study::tuning::Point;
-use centrode_core::study::tuning::rate::{percents, spread};
+use centrode_core::study::tuning::chart::{self, Curve, look};
 use centrode_core::study::tuning::recommend::Verdict;
 use centrode_core::study::tuning::watch::Method;
-use egui::{Color32, CursorIcon, Mesh, Painter, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo};
 
-/// Which value stands on the vertical axis: the value itself, and the ends of its interval, as shown.
-struct Kind {
-    title: &'static str,
-    name: &'static str,
-    /// Whether it is a share.
-    share: bool,
-    range: [f64; 2],
-    value: fn(&Point) -> Option<[f64; 3]>,
-}
-
-fn detected(point: &Point) -> Option<[f64; 3]> {
-    let rate = point.detection?.detected;
-    (rate.of > 0).then_some([rate.low, rate.rate, rate.high].map(spread))
-}
-
-fn delay_of(point: &Point) -> Option<[f64; 3]> {
-    let seen = point.detection?;
-    let open = |value: f64| if value.is_nan() { LATE * 1.05 } else { value };
-    (!seen.median.is_nan()).then_some([open(seen.median_low), seen.median, open(seen.median_high)])
-}
-
-/// Ticks of an axis of shares, at least `spacing` points apart.
-fn shares(length: f32, spacing: f32) -> Vec<Tick> {
-    let tick = |percent: u8| Tick { value: spread(f64::from(percent) / 100.0), text: percent.to_string() };
-    percents(f64::from(spacing / length)).into_iter().map(tick).collect()
-}
+/// Where a threshold lies; none where its values are not defined.
+type At = fn(&Point) -> Option<[f64; 2]>;
 
 /// Contacts found against false alarms: the operating characteristic.
 pub fn operating(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    let title = "Contacts found against false alarms";
-    let kind = Kind { title, name: "Found in time (%)", share: true, range: [-0.04, 1.04], value: detected };
-    curve(ui, rect, &kind, view, out);
+    show(ui, rect, chart::operating(&curves(view), view.tuning.wish), chart::found, view, out);
 }
 
 /// Median delay against false alarms.
 pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    let title = "Delay against false alarms";
-    let kind = Kind { title, name: "Median delay (s)", share: false, range: [0.0, LATE * 1.04], value: delay_of };
-    curve(ui, rect, &kind, view, out);
+    show(ui, rect, chart::delays(&curves(view), view.tuning.wish, LATE), chart::delay, view, out);
 }
 
-fn curve(ui: &mut Ui, rect: Rect, kind: &Kind, view: &View<'_>, out: &mut Vec<Command>) {
-    let theme = &view.theme;
-    title(ui, rect, kind.title, theme);
-    let place = Rect::from_min_max(rect.min + vec2(0.0, 20.0), rect.max);
-    let chart = Chart::new(place, [-0.04, 1.04], kind.range, false);
-    let painter = ui.painter().clone();
-    let size = chart.data.size();
-    let rows = if kind.share { shares(size.y, 15.0) } else { chart.y.ticks(28.0, Steps::Decimal) };
-    chart.frame_with(&painter, theme, ["Runs without contact that alarm (%)", kind.name], [shares(size.x, 26.0), rows]);
-    let inside = painter.with_clip_rect(chart.data.expand(8.0).intersect(painter.clip_rect()));
-    let wish = chart.x.at(spread(view.tuning.wish));
-    let line = [pos2(wish, chart.data.top()), pos2(wish, chart.data.bottom())];
-    inside.extend(Shape::dashed_line(&line, Stroke::new(1.0, theme.accent), 4.0, 4.0));
-    legend(ui, rect, view);
-
+/// All methods; the chosen one lies on top of the others, which stand back.
+fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
     let chosen = view.tuning.method;
     let others = Method::ALL.into_iter().filter(|method| *method != chosen);
-    for method in others.chain([chosen]) {
-        let strength = if method == chosen { 1.0 } else { 0.45 };
-        one(
-            &inside,
-            &chart,
-            kind,
-            &view.derived.curves[method as usize],
-            color(method, theme),
-            strength,
-            method == Method::And,
-        );
-    }
-    let at = |point: &Point| {
-        (kind.value)(point).map(|[_, value, _]| chart.at([spread(point.false_alarms.rate.rate), value]))
+    let curve = |method: Method| {
+        let (role, dashed) = look(method);
+        let points = &view.derived.curves[method as usize];
+        Curve { name: chart::name(method).into(), role, dashed, faint: method != chosen, points }
     };
-    if let Verdict::Take { cell, level, .. } = &view.derived.verdict
-        && let Some(at) = at(&view.study.point(*cell, chosen, *level))
-    {
-        inside.circle_stroke(at, 7.0, Stroke::new(2.0, theme.accent));
-    }
-    if let Some(at) = view.own().and_then(at) {
-        inside.circle(at, 5.0, color(chosen, theme), Stroke::new(1.5, theme.panel));
-    }
-    touch(ui, &chart, kind, view, &at, out);
+    others.chain([chosen]).map(curve).collect()
 }
 
-/// What the colours mean, at the right of the title.
-fn legend(ui: &Ui, rect: Rect, view: &View<'_>) {
-    let mut right = rect.right() - 10.0;
-    for method in Method::ALL.into_iter().rev() {
-        let name = Named::of(method, view.study).name;
-        let ink = if method == view.tuning.method { view.theme.ink } else { view.theme.dim };
-        let galley = ui.painter().layout_job(job(name, 11.0, ink));
-        let wide = galley.size().x;
-        if rect.width() < 470.0 && method != view.tuning.method {
-            continue;
-        }
-        ui.painter().galley(pos2(right - wide, rect.top() + 1.0), galley, ink);
-        let y = rect.top() + 8.0;
-        let line = [pos2(right - wide - 18.0, y), pos2(right - wide - 5.0, y)];
-        let stroke = Stroke::new(2.0, color(method, &view.theme));
-        if method == Method::And {
-            ui.painter().extend(Shape::dashed_line(&line, stroke, 4.0, 3.0));
-        } else {
-            ui.painter().line_segment(line, stroke);
-        }
-        right -= wide + 28.0;
+fn show(ui: &mut Ui, rect: Rect, mut panel: Panel, at: At, view: &View<'_>, out: &mut Vec<Command>) {
+    let chosen = view.tuning.method;
+    if let Verdict::Take { cell, level, .. } = &view.derived.verdict {
+        chart::mark(&mut panel, Role::Choice, Style::Rings, at(&view.study.point(*cell, chosen, *level)));
     }
-}
-
-/// A curve through all thresholds, over the band between the ends of both intervals.
-fn one(painter: &Painter, chart: &Chart, kind: &Kind, points: &[Point], color: Color32, strength: f32, dashed: bool) {
-    let mut mesh = Mesh::default();
-    let mut line: Vec<Pos2> = Vec::new();
-    let mut lines: Vec<Vec<Pos2>> = Vec::new();
-    let mut last: Option<u32> = None;
-    for point in points {
-        let Some([low, value, high]) = (kind.value)(point) else {
-            lines.push(std::mem::take(&mut line));
-            last = None;
-            continue;
-        };
-        let alarms = point.false_alarms.rate;
-        // More alarms go with more found and with less delay: the corners of both intervals that are farthest from the curve.
-        let [few, many] = [alarms.low, alarms.high].map(spread);
-        let [below, above] = if kind.share { [[many, low], [few, high]] } else { [[few, low], [many, high]] };
-        let at = chart.at([spread(alarms.rate), value]);
-        if line.last() == Some(&at) && last.is_some() {
-            continue;
-        }
-        line.push(at);
-        let next = mesh.vertices.len() as u32;
-        for end in [below, above] {
-            mesh.colored_vertex(chart.at(end), color.gamma_multiply(0.16 * strength));
-        }
-        if let Some(last) = last {
-            mesh.add_triangle(last, last + 1, next);
-            mesh.add_triangle(last + 1, next, next + 1);
-        }
-        last = Some(next);
-    }
-    lines.push(line);
-    painter.add(Shape::mesh(mesh));
-    let stroke = Stroke::new(1.0 + strength, color.gamma_multiply(0.35 + 0.65 * strength));
-    for line in lines.into_iter().filter(|line| line.len() > 1) {
-        if dashed {
-            painter.extend(Shape::dashed_line(&line, stroke, 5.0, 3.0));
-        } else {
-            painter.line(line, stroke);
-        }
+    chart::mark(&mut panel, look(chosen).0, Style::Dots, view.own().and_then(at));
+    let title = panel.title.clone();
+    let chart = Chart { panels: vec![panel], ..Chart::default() };
+    let places = paint::chart(ui.painter(), &view.theme, rect, &chart, TEXT, &[]);
+    if let Some(place) = places.first() {
+        touch(ui, place, &title, at, view, out);
     }
 }
 
 /// A click or a drag takes the nearest threshold; without a button the pointer reads it.
-fn touch(
-    ui: &mut Ui,
-    chart: &Chart,
-    kind: &Kind,
-    view: &View<'_>,
-    at: &impl Fn(&Point) -> Option<Pos2>,
-    out: &mut Vec<Command>,
-) {
-    let response = ui.interact(chart.data, ui.make_persistent_id(kind.title), Sense::CLICK | Sense::DRAG);
+fn touch(ui: &mut Ui, place: &Place, title: &str, at: At, view: &View<'_>, out: &mut Vec<Command>) {
+    let response = ui.interact(place.data(), ui.make_persistent_id(title), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
-    response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, kind.title));
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, title));
+    let at = |point: &Point| at(point).map(|point| place.at(point));
     let nearest = |pointer: Pos2| {
         let levels = view.curve().iter().enumerate().filter_map(|(level, point)| Some((level, at(point)?)));
         let distance = |at: &Pos2| at.distance(pointer);
@@ -193,10 +72,10 @@ fn touch(
         return;
     }
     let hover = response.hover_pos().filter(|_| !response.dragged());
-    let Some((level, place)) = hover.and_then(nearest) else { return };
+    let Some((level, near)) = hover.and_then(nearest) else { return };
     let painter = ui.painter();
-    painter.circle_stroke(place, 4.5, Stroke::new(1.5, view.theme.ink));
-    notation::note(painter, &view.theme, place, chart.data, note(view, &view.curve()[level], &view.theme));
+    painter.circle_stroke(near, 4.5, Stroke::new(1.5, view.theme.ink));
+    notation::note(painter, &view.theme, near, place.data(), note(view, &view.curve()[level], &view.theme));
 }
 
 /// A threshold and what it comes to.

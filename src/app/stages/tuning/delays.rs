@@ -1,8 +1,7 @@
 //! When contact is found: a histogram of the delays for each disk, with those that alarm before and those missed.
 
-use crate::app::charts::axes::Chart;
 use crate::app::charts::notation::{job, number};
-use crate::app::charts::plots::Steps;
+use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::tuner::LATE;
@@ -24,42 +23,41 @@ pub fn histogram(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command
     let rows = &view.cells.contacts;
     let level = view.derived.own[view.tuning.method as usize];
     let place = Rect::from_min_max(rect.min + vec2(0.0, 4.0), rect.max - vec2(WORDS - 10.0, 0.0));
-    let chart = Chart::new(place, [0.0, LATE], [0.0, rows.len().max(1) as f64], false);
+    let data = Rect::from_min_max(place.min + vec2(50.0, 20.0), place.max - vec2(10.0, 38.0));
+    let data = Rect::from_min_size(data.min, data.size().max(vec2(40.0, 40.0)));
+    let time = Axis::new([0.0, LATE], [data.left(), data.right()]);
     let painter = ui.painter().clone();
     let font = fonts::regular(11.0);
-    for tick in chart.x.ticks(56.0, Steps::Decimal) {
-        let at = painter.round_to_pixel_center(chart.x.at(tick.value));
-        painter.vline(at, chart.data.y_range(), Stroke::new(1.0, theme.faint.gamma_multiply(0.7)));
-        painter.text(pos2(at, chart.data.bottom() + 4.0), Align2::CENTER_TOP, tick.text, font.clone(), theme.dim);
+    for tick in time.ticks(56.0, Steps::Decimal) {
+        let at = painter.round_to_pixel_center(time.at(tick.value));
+        painter.vline(at, data.y_range(), Stroke::new(1.0, theme.faint.gamma_multiply(0.7)));
+        painter.text(pos2(at, data.bottom() + 4.0), Align2::CENTER_TOP, tick.text, font.clone(), theme.dim);
     }
     let name = painter.layout_job(job("Delay after contact (s)", 12.0, theme.ink));
-    painter.galley(pos2(chart.data.center().x - 0.5 * name.size().x, chart.data.bottom() + 18.0), name, theme.ink);
+    painter.galley(pos2(data.center().x - 0.5 * name.size().x, data.bottom() + 18.0), name, theme.ink);
     let (Some(level), false) = (level, rows.is_empty()) else {
         let said = if rows.is_empty() { "no contact" } else { "switched off" };
-        text::paint(ui, chart.data.center(), Align2::CENTER_CENTER, said, fonts::regular(12.5), theme.dim);
+        text::paint(ui, data.center(), Align2::CENTER_CENTER, said, fonts::regular(12.5), theme.dim);
         return;
     };
-    let height = chart.data.height() / rows.len() as f32;
+    let height = data.height() / rows.len() as f32;
     for (k, (name, cell)) in rows.iter().enumerate() {
-        let row = Rect::from_min_size(
-            pos2(chart.data.left(), chart.data.top() + height * k as f32),
-            vec2(chart.data.width(), height),
-        );
+        let row = Rect::from_min_size(pos2(data.left(), data.top() + height * k as f32), vec2(data.width(), height));
         one(&painter, row, view, (name, *cell), level);
     }
     // The median of the contact that is set: what a drag moves.
     let median = view.own().and_then(|point| point.detection).map_or(f64::NAN, |seen| seen.median);
     if !median.is_nan() {
-        let x = chart.x.at(median);
-        let line = [pos2(x, chart.data.top()), pos2(x, chart.data.bottom())];
+        let x = time.at(median);
+        let line = [pos2(x, data.top()), pos2(x, data.bottom())];
         painter.extend(Shape::dashed_line(&line, Stroke::new(1.4, theme.detection), 5.0, 3.5));
     }
-    let held = chart.x.at(median);
-    let response = ui.interact(chart.data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
+    let held = time.at(median);
+    let response = ui.interact(data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, heading));
     if let Some(pointer) = taken(ui, &response, |finger| (finger.x - held).abs() < REACH) {
-        take(chart.x.value(pointer.x), view, out);
+        take(time.value(pointer.x), view, out);
     }
 }
 

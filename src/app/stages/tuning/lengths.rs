@@ -1,117 +1,102 @@
 //! Filter length by threshold: how late contact is found, where false alarms are rare enough.
 
-use crate::app::charts::notation::{self, job, number};
-use crate::app::charts::plots::{Axis, Steps};
+use crate::app::charts::notation::{self, job};
+use crate::app::charts::paint::{self, Place};
 use crate::app::command::Command;
-use crate::app::fonts;
 use crate::app::stages::tuner::LATE;
-use crate::app::stages::tuning::{Named, REACH, View, taken, title};
-use crate::scene::colormap::colormap;
+use crate::app::stages::tuning::{Named, REACH, TEXT, View, curves, taken, words};
+use centrode_core::chart::ticks::Tick;
+use centrode_core::chart::{Axis, Chart, Map, Panel, Role, Style};
+use centrode_core::study::tuning::chart::mark;
 use centrode_core::study::tuning::recommend::Verdict;
-use egui::{
-    Align2, Color32, ColorImage, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui,
-    WidgetInfo, pos2, vec2,
-};
+use egui::{CursorIcon, Pos2, Rect, Sense, TextureHandle, Ui, WidgetInfo};
 
-/// The map as an image, kept while it stays the same.
+/// The map and its image, kept while they stay the same.
 pub struct Picture {
     key: (u64, u64, usize),
+    map: Map,
     texture: TextureHandle,
-    /// The thresholds drawn, as shown: evenly spaced rows from `step` up.
-    rows: usize,
+    /// The thresholds drawn, SI: evenly spaced rows from `step` up.
     step: f64,
 }
 
-/// Width of the colour bar with its labels.
-const BAR: f32 = 44.0;
 /// So many rows are shown, at least and at most: the evenly spaced thresholds.
 const ROWS: [usize; 2] = [20, 200];
-/// How much of its colour a place keeps where there are too many false alarms.
-const FADED: f32 = 0.28;
 
 /// Shows the map; a click or a drag takes threshold and filter length.
 pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Option<Picture>, out: &mut Vec<Command>) {
-    let (theme, method) = (&view.theme, view.tuning.method);
-    let named = Named::of(method, view.study);
+    let method = view.tuning.method;
     let heading = "Median delay by filter length and threshold";
-    title(ui, rect, heading, theme);
     let key = (version, view.tuning.wish.to_bits(), method as usize);
     if kept.as_ref().is_none_or(|picture| picture.key != key) {
-        *kept = Some(paint(ui, view, key, &named));
+        let (map, step) = delays(view);
+        let texture = paint::texture(ui.ctx(), "filter lengths", &map, &view.theme, false);
+        *kept = Some(Picture { key, map, texture, step });
     }
-    let (Some(picture), lengths) = (kept, &view.cells.lengths) else { return };
-    let data = Rect::from_min_max(rect.min + vec2(50.0, 38.0), rect.max - vec2(BAR + 10.0, 38.0));
-    let data = Rect::from_min_size(data.min, data.size().max(vec2(60.0, 40.0)));
-    let painter = ui.painter().clone();
-    painter.rect_filled(data, 0.0, theme.raised);
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    painter.image(picture.texture.id(), data, whole, Color32::WHITE);
-    painter.rect_stroke(data, 0.0, Stroke::new(1.0, theme.dim), StrokeKind::Middle);
-    // Rows are centred on their thresholds.
-    let y = Axis::new([0.5 * picture.step, (picture.rows as f64 + 0.5) * picture.step], [data.bottom(), data.top()]);
-    let column = data.width() / lengths.len() as f32;
-    let x = |k: usize| data.left() + column * (k as f32 + 0.5);
-    for tick in y.ticks(20.0, Steps::Decimal) {
-        let at = pos2(data.left() - 6.0, y.at(tick.value));
-        painter.text(at, Align2::RIGHT_CENTER, tick.text, fonts::regular(11.0), theme.dim);
-    }
-    for (k, (length, _)) in lengths.iter().enumerate() {
-        // Every other one where they would touch.
-        if column > 27.0 || k % 2 == 1 {
-            let at = pos2(x(k), data.bottom() + 4.0);
-            painter.text(at, Align2::CENTER_TOP, length.to_string(), fonts::regular(11.0), theme.dim);
-        }
-    }
-    let name = painter.layout_job(job("Filter length N", 12.0, theme.ink));
-    painter.galley(pos2(data.center().x - 0.5 * name.size().x, data.bottom() + 18.0), name, theme.ink);
-    let unit = if named.unit.is_empty() { named.symbol.into() } else { format!("{} ({})", named.symbol, named.unit) };
-    let name = painter.layout_job(job(&unit, 12.0, theme.ink));
-    painter.galley(pos2(rect.left() + 4.0, data.top() - 17.0), name, theme.ink);
-    let hint = format!("faded: more than {} % may alarm", crate::app::stages::tuning::words::wished(view.tuning.wish));
-    if rect.width() > 300.0 {
-        let at = pos2(data.right(), data.top() - 4.0);
-        painter.text(at, Align2::RIGHT_BOTTOM, hint, fonts::regular(11.0), theme.dim);
-    }
-    bar(ui, data, view);
-
-    let clip = painter.with_clip_rect(data.expand(8.0).intersect(painter.clip_rect()));
-    let place = |length: u64, threshold: f64| {
-        let k = lengths.iter().position(|(other, _)| *other == length)?;
-        Some(pos2(x(k), y.at(threshold * named.scale)))
+    let Some(picture) = kept else { return };
+    let mut panel = panel(view, &picture.map);
+    panel.title = heading.into();
+    let at = |length: u64, threshold: f64| {
+        let column = view.cells.lengths.iter().position(|(other, _)| *other == length)?;
+        Some([column as f64, threshold])
     };
-    if let Verdict::Take { cell, point, .. } = &view.derived.verdict
-        && let Some(at) = place(view.study.cells()[*cell].scenario.filter.length, point.threshold)
-    {
-        clip.circle_stroke(at, 7.5, Stroke::new(4.0, Color32::from_black_alpha(140)));
-        clip.circle_stroke(at, 7.5, Stroke::new(2.2, Color32::WHITE));
+    if let Verdict::Take { cell, point, .. } = &view.derived.verdict {
+        let length = view.study.cells()[*cell].scenario.filter.length;
+        mark(&mut panel, Role::Choice, Style::Rings, at(length, point.threshold));
     }
-    let own = view.setting().and_then(|xi| place(view.study.cells()[0].scenario.filter.length, xi));
-    if let Some(at) = own {
-        clip.circle(at, 5.0, theme.detection, Stroke::new(1.5, Color32::WHITE));
+    let own = view.setting().and_then(|threshold| at(view.study.cells()[0].scenario.filter.length, threshold));
+    mark(&mut panel, Role::Detection, Style::Dots, own);
+    let chart = Chart { panels: vec![panel], ..Chart::default() };
+    let maps = std::slice::from_ref(&picture.texture);
+    let places = paint::chart(ui.painter(), &view.theme, rect, &chart, TEXT, maps);
+    if let Some(place) = places.first() {
+        touch(ui, place, heading, view, picture, own, out);
     }
+}
 
-    let response = ui.interact(data, ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
+/// The axes of the map: a column for each filter length, a row for each threshold.
+fn panel(view: &View<'_>, map: &Map) -> Panel {
+    let named = Named::of(view.tuning.method, view.study);
+    let tick = |(k, (length, _)): (usize, &(u64, usize))| Tick { value: k as f64, text: length.to_string() };
+    let ticks = view.cells.lengths.iter().enumerate().map(tick).collect();
+    let x = Axis { range: Some(map.x), ticks, ..Axis::new("Filter length N", "1", "1", 1.0) };
+    let y = Axis { range: Some(map.y), ..Axis::new(named.symbol, "1", named.unit, named.scale) };
+    let note = format!("faded: more than {} % may alarm", words::wished(view.tuning.wish));
+    Panel { note, map: Some(map.clone()), ..Panel::new(x, y) }
+}
+
+/// A click or a drag takes the threshold and the filter length under it; without a button the pointer reads them.
+fn touch(
+    ui: &mut Ui,
+    place: &Place,
+    heading: &str,
+    view: &View<'_>,
+    picture: &Picture,
+    own: Option<[f64; 2]>,
+    out: &mut Vec<Command>,
+) {
+    let (method, lengths) = (view.tuning.method, &view.cells.lengths);
+    let response = ui.interact(place.data(), ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
-    response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, heading));
-    let under = |at: egui::Pos2| {
-        let k = (((at.x - data.left()) / column) as usize).min(lengths.len() - 1);
-        let wanted = y.value(at.y) / named.scale;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, heading));
+    let under = |at: Pos2| {
+        let [column, wanted] = place.value(at);
+        let &(length, cell) = lengths.get((column.round().max(0.0) as usize).min(lengths.len().checked_sub(1)?))?;
         // Levels that are drawn: the evenly spaced ones.
-        let row = ((wanted * named.scale / picture.step).round() as usize).clamp(1, picture.rows);
-        let threshold = row as f64 * picture.step / named.scale;
-        (k, nearest(view.study.levels(lengths[k].1, method), threshold))
+        let row = ((wanted / picture.step).round() as usize).clamp(1, picture.map.rows().max(1));
+        Some((length, cell, nearest(view.study.levels(cell, method), row as f64 * picture.step)))
     };
-    let near = |finger: egui::Pos2| own.is_some_and(|own| own.distance(finger) < REACH);
+    let near = |finger: Pos2| own.is_some_and(|own| place.at(own).distance(finger) < REACH);
     if let Some(at) = taken(ui, &response, near) {
-        let (k, level) = under(at);
-        let threshold = view.study.levels(lengths[k].1, method)[level];
-        view.take_threshold(threshold, Some(lengths[k].0), out);
-    } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged()) {
-        let (k, level) = under(at);
-        let mut lines =
-            crate::app::stages::tuning::curves::note(view, &view.study.point(lengths[k].1, method, level), theme);
-        lines.insert(1, job(&format!("N = {}", lengths[k].0), 11.5, theme.ink));
-        notation::note(&painter, theme, at, data, lines);
+        if let Some((length, cell, level)) = under(at) {
+            view.take_threshold(view.study.levels(cell, method)[level], Some(length), out);
+        }
+    } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged())
+        && let Some((length, cell, level)) = under(at)
+    {
+        let mut lines = curves::note(view, &view.study.point(cell, method, level), &view.theme);
+        lines.insert(1, job(&format!("N = {length}"), 11.5, view.theme.ink));
+        notation::note(ui.painter(), &view.theme, at, place.data(), lines);
     }
 }
 
@@ -125,16 +110,17 @@ fn nearest(levels: &[f64], threshold: f64) -> usize {
         .unwrap_or(0)
 }
 
-/// Delay as a share of the largest in time, and whether false alarms are as rare as wished.
+/// The median delay, s, and whether false alarms are as rare as wished.
 fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
     let (study, method) = (view.study, view.tuning.method);
     let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
     let quiet = point.false_alarms.rate.high <= view.tuning.wish;
-    let delay = point.detection.map(|seen| seen.median / LATE).filter(|delay| !delay.is_nan());
+    let delay = point.detection.map(|seen| seen.median).filter(|delay| !delay.is_nan());
     delay.filter(|_| point.false_alarms.rate.of > 0).map(|delay| (delay, quiet))
 }
 
-fn paint(ui: &Ui, view: &View<'_>, key: (u64, u64, usize), named: &Named) -> Picture {
+/// The map, and the step between its thresholds, SI.
+fn delays(view: &View<'_>) -> (Map, f64) {
     let cells = &view.cells.lengths;
     // The steps are even, but for the coarse ones and the scenario's own.
     let levels = view.study.levels(0, view.tuning.method);
@@ -144,32 +130,20 @@ fn paint(ui: &Ui, view: &View<'_>, key: (u64, u64, usize), named: &Named) -> Pic
     let last = rows.iter().rposition(|row| row.iter().any(Option::is_some)).unwrap_or(0);
     let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
     let count = (last + last / 8).max(own + own / 8).clamp(ROWS[0], ROWS[1]);
-    let ground = Color32::TRANSPARENT;
-    let pixels = rows[..count].iter().rev().flatten().map(|known| {
-        known.map_or(ground, |(share, quiet)| {
-            let [r, g, b, _] = colormap(1.0 - share).to_bytes();
-            let color = Color32::from_rgb(r, g, b);
-            if quiet { color } else { view.theme.raised.lerp_to_gamma(color, FADED) }
-        })
-    });
-    let image = ColorImage::new([cells.len(), count], pixels.collect());
-    let texture = ui.ctx().load_texture("filter lengths", image, TextureOptions::NEAREST);
-    Picture { key, texture, rows: count, step: step * named.scale }
-}
-
-/// What the colours mean.
-fn bar(ui: &Ui, data: Rect, view: &View<'_>) {
-    let painter = ui.painter();
-    let bar = Rect::from_min_max(pos2(data.right() + 10.0, data.top()), pos2(data.right() + 19.0, data.bottom()));
-    let steps = 48;
-    for k in 0..steps {
-        let [from, to] = [k, k + 1].map(|k| bar.bottom() - bar.height() * k as f32 / steps as f32);
-        let [r, g, b, _] = colormap(1.0 - f64::from(k) / f64::from(steps - 1)).to_bytes();
-        painter.rect_filled(Rect::from_x_y_ranges(bar.x_range(), to..=from + 0.5), 0.0, Color32::from_rgb(r, g, b));
-    }
-    for share in [0.0, 0.5, 1.0] {
-        let at = pos2(bar.right() + 4.0, bar.bottom() - bar.height() * share as f32);
-        let text = format!("{} s", number(share * LATE, 1));
-        painter.text(at, Align2::LEFT_CENTER, text, fonts::regular(10.5), view.theme.dim);
-    }
+    let shown = || rows[..count].iter().flatten();
+    let map = Map {
+        unit: "s",
+        scale: 1.0,
+        columns: cells.len(),
+        values: shown().map(|known| known.map_or(f64::NAN, |(delay, _)| delay)).collect(),
+        faint: shown().map(|known| known.is_some_and(|(_, quiet)| !quiet)).collect(),
+        x: [-0.5, cells.len() as f64 - 0.5],
+        // Rows are centred on their thresholds.
+        y: [0.5 * step, (count as f64 + 0.5) * step],
+        // The soonest is the lightest.
+        ends: [LATE, 0.0],
+        level: None,
+        line: Vec::new(),
+    };
+    (map, step)
 }

@@ -1,12 +1,12 @@
 //! Ten thousand samples into a few hundred columns of pixels, losing no peak and closing no gap.
 
-use crate::app::charts::plots::axis::Axis;
+use super::scale::Scale;
 
 /// What one column of pixels shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
     /// The column's place, points.
-    pub x: f32,
+    pub x: f64,
     /// Smallest value in it.
     pub low: f64,
     /// Largest value in it.
@@ -27,7 +27,7 @@ impl Column {
 ///
 /// A value that is not a number ends a stretch. `pixel` is a pixel's width in points.
 #[must_use]
-pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f32) -> Vec<Vec<Column>> {
+pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Scale, pixel: f64) -> Vec<Vec<Column>> {
     let mut stretches = Vec::new();
     let mut stretch: Vec<Column> = Vec::new();
     let (mut x, mut until) = (0.0, f64::NEG_INFINITY);
@@ -40,7 +40,7 @@ pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f3
         }
         // The column's end is kept as a time, so that few samples are mapped.
         if t >= until {
-            let left = (time.at(t) / pixel).floor() * pixel;
+            let left = libm::floor(time.at(t) / pixel) * pixel;
             x = left + 0.5 * pixel;
             until = time.unbounded(left + pixel);
         }
@@ -63,8 +63,8 @@ pub fn columns(samples: impl Iterator<Item = (f64, f64)>, time: &Axis, pixel: f3
 
 /// Stretches of columns in which a predicate holds, as `(first x, last x)`.
 #[must_use]
-pub fn spans(stretches: &[Vec<Column>], holds: impl Fn(&Column) -> bool) -> Vec<(f32, f32)> {
-    let mut spans: Vec<(f32, f32)> = Vec::new();
+pub fn spans(stretches: &[Vec<Column>], holds: impl Fn(&Column) -> bool) -> Vec<(f64, f64)> {
+    let mut spans: Vec<(f64, f64)> = Vec::new();
     for stretch in stretches {
         let mut open = false;
         for column in stretch {
@@ -84,8 +84,8 @@ pub fn spans(stretches: &[Vec<Column>], holds: impl Fn(&Column) -> bool) -> Vec<
 mod tests {
     use super::*;
 
-    fn axis() -> Axis {
-        Axis::new([0.0, 10.0], [0.0, 100.0])
+    fn axis() -> Scale {
+        Scale::new([0.0, 10.0], [0.0, 100.0])
     }
 
     #[test]
@@ -127,10 +127,10 @@ mod tests {
 
     #[test]
     fn ten_thousand_samples_become_one_column_a_pixel() {
-        let samples: Vec<(f64, f64)> = (0..=10_000).map(|k| (f64::from(k) * 1e-3, f64::from(k).sin())).collect();
-        let axis = Axis::new([0.0, 10.0], [0.0, 1000.0]);
+        let samples: Vec<(f64, f64)> = (0..=10_000).map(|k| (f64::from(k) * 1e-3, f64::from(k % 17))).collect();
+        let axis = Scale::new([0.0, 10.0], [0.0, 1000.0]);
         let stretches = columns(samples.iter().copied(), &axis, 1.0);
-        let places: Vec<f32> = stretches.iter().flatten().map(|column| column.x).collect();
-        assert_eq!(places, (0..=1000).map(|pixel| pixel as f32 + 0.5).collect::<Vec<_>>());
+        let places: Vec<f64> = stretches.iter().flatten().map(|column| column.x).collect();
+        assert_eq!(places, (0..=1000).map(|pixel| f64::from(pixel) + 0.5).collect::<Vec<_>>());
     }
 }

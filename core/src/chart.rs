@@ -1,0 +1,279 @@
+//! Charts as data: panels with axes, curves, bands, marks, maps, and the words around them.
+//!
+//! Numbers are SI; an [`Axis`] says how they are shown. Colours are told by what they mean ([`Role`]). In all texts a `_`
+//! makes the next character a subscript ([`notation`]). [`layout`] divides a page and gives a [`layout::Drawing`], which the
+//! page paints and [`svg`] writes; [`csv`] writes the numbers.
+
+pub mod clip;
+pub mod csv;
+pub mod decimate;
+pub mod font;
+pub mod layout;
+pub mod notation;
+pub mod scale;
+pub mod svg;
+pub mod ticks;
+
+use ticks::{Steps, Tick};
+
+/// A chart: one panel or several that share a title and a caption.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Chart {
+    /// What it shows, in a line.
+    pub title: String,
+    /// Panels in reading order.
+    pub panels: Vec<Panel>,
+    /// What it was made with: every parameter that matters, in sentences; a line break begins a paragraph.
+    pub caption: String,
+}
+
+/// Two axes and what is drawn between them: map, spans, bands, series and verticals, back to front.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Panel {
+    /// What it shows, above it; empty where the chart's title says it.
+    pub title: String,
+    /// A remark beside the title, such as what a line stands for.
+    pub note: String,
+    /// The horizontal axis.
+    pub x: Axis,
+    /// The vertical axis.
+    pub y: Axis,
+    /// Whether both axes have one scale, as in space: their ranges grow until it is so.
+    pub equal_scales: bool,
+    /// A grid of values in colour.
+    pub map: Option<Map>,
+    /// Spans of x that are shaded over the whole height.
+    pub spans: Vec<Span>,
+    /// Areas along curves, such as their confidence.
+    pub bands: Vec<Band>,
+    /// Curves and rows of marks.
+    pub series: Vec<Series>,
+    /// Dashed lines across the whole height, such as detections.
+    pub verticals: Vec<Vertical>,
+    /// Named places of the vertical axis, at its right end.
+    pub rungs: Vec<Rung>,
+}
+
+impl Panel {
+    /// An empty panel between two axes.
+    #[must_use]
+    pub fn new(x: Axis, y: Axis) -> Self {
+        Self {
+            title: String::new(),
+            note: String::new(),
+            x,
+            y,
+            equal_scales: false,
+            map: None,
+            spans: Vec::new(),
+            bands: Vec::new(),
+            series: Vec::new(),
+            verticals: Vec::new(),
+            rungs: Vec::new(),
+        }
+    }
+}
+
+/// One axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The quantity, such as `θ_L`.
+    pub name: &'static str,
+    /// Unit of the numbers, such as `rad`; 1 for none.
+    pub si_unit: &'static str,
+    /// Unit shown, such as `°`; 1 or nothing for none.
+    pub unit: &'static str,
+    /// Numbers are multiplied by this to be shown.
+    pub scale: f64,
+    /// Ends of the axis, SI, where what is drawn should not decide them.
+    pub range: Option<[f64; 2]>,
+    /// Which numbers are marked, and how they lie.
+    pub steps: Steps,
+    /// Marks at given places (SI), in place of those of `steps`.
+    pub ticks: Vec<Tick>,
+}
+
+impl Axis {
+    /// An axis whose marks are round numbers.
+    #[must_use]
+    pub const fn new(name: &'static str, si_unit: &'static str, unit: &'static str, scale: f64) -> Self {
+        Self { name, si_unit, unit, scale, range: None, steps: Steps::Decimal, ticks: Vec::new() }
+    }
+
+    /// Its name with the unit, such as `θ_L (°)`.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if matches!(self.unit, "1" | "") { self.name.into() } else { format!("{} ({})", self.name, self.unit) }
+    }
+}
+
+/// What something means, which gives its colour.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Role {
+    /// The model without constraint.
+    Model,
+    /// The constrained model.
+    Constrained,
+    /// What the tracker says.
+    Sensor,
+    /// What the load cells say.
+    Force,
+    /// A threshold or a bound, or all methods together.
+    Bound,
+    /// The robot itself.
+    Robot,
+    /// A detection.
+    Detection,
+    /// Contact, and what touches.
+    Contact,
+    /// What matters less.
+    Aside,
+    /// What a person chose.
+    Choice,
+    /// One of a family, by its share from 0 (first) to 1 (last): a shade of an even colour map.
+    Member(f64),
+}
+
+/// A curve or a row of marks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// Name in the legend; series of one name and look are one entry, without a name there is none.
+    pub name: String,
+    /// What it means.
+    pub role: Role,
+    /// How it is drawn.
+    pub style: Style,
+    /// Whether it stands back behind the others.
+    pub faint: bool,
+    /// Points, SI; a NaN is a gap.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl Series {
+    /// A series in full strength.
+    #[must_use]
+    pub fn new(name: impl Into<String>, role: Role, style: Style, points: Vec<[f64; 2]>) -> Self {
+        Self { name: name.into(), role, style, faint: false, points }
+    }
+}
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// A solid line.
+    Line,
+    /// A dashed line.
+    Dashed,
+    /// A triangle at each point.
+    Triangles,
+    /// A circle at each point.
+    Circles,
+    /// A dot at each point: what is set.
+    Dots,
+    /// A ring around each point: what is advised.
+    Rings,
+    /// A dot at each point, with lines to all four sides.
+    Targets,
+}
+
+impl Style {
+    /// Its name in a table.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Line => "line",
+            Self::Dashed => "dashed",
+            Self::Triangles => "triangles",
+            Self::Circles => "circles",
+            Self::Dots => "dots",
+            Self::Rings => "rings",
+            Self::Targets => "targets",
+        }
+    }
+}
+
+/// An area along a curve.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Band {
+    /// What it means.
+    pub role: Role,
+    /// Whether it stands back behind the others.
+    pub faint: bool,
+    /// Its edges at each point of the curve, SI: on one side, and on the other. A NaN is a gap.
+    pub edges: Vec<[[f64; 2]; 2]>,
+}
+
+/// A vertical dashed line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Vertical {
+    /// Name in the legend; lines of one name are one entry, without a name there is none.
+    pub name: &'static str,
+    /// Where, SI.
+    pub x: f64,
+    /// What it means.
+    pub role: Role,
+}
+
+/// A shaded span of x.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Span {
+    /// What it is, in the legend.
+    pub name: &'static str,
+    /// Its ends, SI.
+    pub ends: [f64; 2],
+}
+
+/// A named place of the vertical axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rung {
+    /// Its name.
+    pub name: String,
+    /// Where, SI.
+    pub y: f64,
+}
+
+/// A grid of values in colour, with the bar that explains the colours.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Unit of the values shown, above the bar.
+    pub unit: &'static str,
+    /// Values are multiplied by this to be shown.
+    pub scale: f64,
+    /// Cells to a row.
+    pub columns: usize,
+    /// Values, SI, row by row; NaN where there is none.
+    pub values: Vec<f64>,
+    /// Cells that stand back; none of them when empty.
+    pub faint: Vec<bool>,
+    /// Outer edges of the first and of the last column, SI.
+    pub x: [f64; 2],
+    /// Outer edges of the first and of the last row, SI.
+    pub y: [f64; 2],
+    /// The values with the darkest and with the lightest colour; those beyond are as these.
+    pub ends: [f64; 2],
+    /// The value whose line is drawn, where there is one, and the line's pieces, SI.
+    pub level: Option<f64>,
+    /// Pieces of that line, SI.
+    pub line: Vec<[[f64; 2]; 2]>,
+}
+
+impl Map {
+    /// Rows of cells.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.values.len().checked_div(self.columns).unwrap_or(0)
+    }
+
+    /// Where a value lies between the darkest colour (0) and the lightest (1); NaN where there is none.
+    #[must_use]
+    pub fn share(&self, value: f64) -> f64 {
+        let [dark, light] = self.ends;
+        if light == dark { 0.0 * value } else { ((value - dark) / (light - dark)).clamp(0.0, 1.0) }
+    }
+
+    /// Whether a cell stands back.
+    #[must_use]
+    pub fn is_faint(&self, cell: usize) -> bool {
+        self.faint.get(cell).copied().unwrap_or(false)
+    }
+}

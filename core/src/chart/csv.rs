@@ -1,0 +1,89 @@
+//! A chart's numbers as CSV, SI units in the header.
+
+use super::{Axis, Chart, Panel, Role};
+
+/// A number as it is read back; what is not defined stays empty.
+fn cell(value: f64) -> String {
+    if value.is_nan() { String::new() } else { value.to_string() }
+}
+
+/// One field; what would end it early is quoted.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.into() }
+}
+
+fn row(text: &mut String, fields: &[&str]) {
+    let fields: Vec<String> = fields.iter().map(|part| field(part)).collect();
+    text.push_str(&fields.join(","));
+    text.push('\n');
+}
+
+/// The numbers of the curves, marks, lines and spans, one row each: kind, place of the series, name, x, y. A gap is a row with
+/// an empty y; of what stands over the whole height y is empty, and of a span both ends have a row. A chart of several
+/// panels is written panel by panel, each with its own header.
+#[must_use]
+pub fn csv(chart: &Chart) -> String {
+    let mut text = String::new();
+    chart.panels.iter().for_each(|panel| of_panel(&mut text, panel));
+    text
+}
+
+/// Rows of numbers below a header.
+#[must_use]
+pub fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [f64; N]>) -> String {
+    let mut text = String::new();
+    row(&mut text, &header);
+    for values in rows {
+        text.push_str(&values.map(cell).join(","));
+        text.push('\n');
+    }
+    text
+}
+
+fn of_panel(text: &mut String, panel: &Panel) {
+    let title = |axis: &Axis| format!("{} [{}]", axis.name, axis.si_unit);
+    row(text, &["kind", "series", "name", &title(&panel.x), &title(&panel.y)]);
+    for (k, series) in panel.series.iter().enumerate() {
+        for [x, y] in &series.points {
+            row(text, &[series.style.name(), &k.to_string(), &series.name, &cell(*x), &cell(*y)]);
+        }
+    }
+    for vertical in &panel.verticals {
+        let kind = match vertical.role {
+            Role::Detection => "detection",
+            Role::Contact => "contact",
+            _ => "vertical",
+        };
+        row(text, &[kind, "", vertical.name, &cell(vertical.x), ""]);
+    }
+    for span in &panel.spans {
+        for x in span.ends {
+            row(text, &["span", "", span.name, &cell(x), ""]);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::{Series, Span, Style, Vertical};
+
+    #[test]
+    fn what_is_not_defined_is_empty() {
+        assert_eq!(table(["a [m]", "b"], [[0.25, f64::NAN], [-1.0, 2.0]].into_iter()), "a [m],b\n0.25,\n-1,2\n");
+    }
+
+    #[test]
+    fn every_number_has_a_row_and_names_are_quoted() {
+        let axis = |name| Axis::new(name, "s", "s", 1.0);
+        let mut panel = Panel::new(axis("t"), axis("y"));
+        panel.series = vec![Series::new("a, \"b\"", Role::Model, Style::Line, vec![[0.5, 1e-9], [1.0, f64::NAN]])];
+        panel.verticals = vec![Vertical { name: "detection", x: 2.0, role: Role::Detection }];
+        panel.spans = vec![Span { name: "not armed", ends: [0.0, 1.0] }];
+        let text = csv(&Chart { panels: vec![panel], ..Chart::default() });
+        let lines: Vec<&str> = text.lines().collect();
+        assert_eq!(lines[0], "kind,series,name,t [s],y [s]");
+        assert_eq!(lines[1..3], ["line,0,\"a, \"\"b\"\"\",0.5,0.000000001", "line,0,\"a, \"\"b\"\"\",1,"]);
+        assert_eq!(lines[3..], ["detection,,detection,2,", "span,,not armed,0,", "span,,not armed,1,"]);
+    }
+}

@@ -1,0 +1,218 @@
+//! Paints a chart that the core has laid out.
+
+use crate::app::charts::notation::{job, job_in};
+use crate::app::fonts;
+use crate::app::theme::Theme;
+use crate::scene::palette::Palette;
+use crate::show::ink;
+use centrode_core::chart::clip::{self, Point};
+use centrode_core::chart::layout::{Align, Form, Frame, Ink, Page, Paint, Shape, Text, layout};
+use centrode_core::chart::svg::FAINT;
+use centrode_core::chart::{Chart, Map, Role};
+use egui::epaint::TextShape;
+use egui::{
+    Align2, Color32, ColorImage, Context, Mesh, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, Vec2, pos2,
+    vec2,
+};
+use std::f32::consts::FRAC_PI_2;
+
+/// Where a panel of a painted chart lies on the screen. Values are SI.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    frame: Frame,
+    origin: Vec2,
+}
+
+impl Place {
+    /// The data's place.
+    #[must_use]
+    pub fn data(&self) -> Rect {
+        rect(self.frame.data, self.origin)
+    }
+
+    /// Where a point lies.
+    #[must_use]
+    pub fn at(&self, point: [f64; 2]) -> Pos2 {
+        pos(self.frame.at(point), self.origin)
+    }
+
+    /// The values under a point of the screen, within the ranges.
+    #[must_use]
+    pub fn value(&self, at: Pos2) -> [f64; 2] {
+        let at = at - self.origin;
+        self.frame.value([at.x.into(), at.y.into()])
+    }
+}
+
+fn pos([x, y]: Point, origin: Vec2) -> Pos2 {
+    pos2(x as f32, y as f32) + origin
+}
+
+fn rect(rect: clip::Rect, origin: Vec2) -> Rect {
+    Rect::from_min_max(pos([rect.left, rect.top], origin), pos([rect.right, rect.bottom], origin))
+}
+
+/// The colour of an ink in a theme.
+#[must_use]
+pub fn color(ink: Ink, theme: &Theme) -> Color32 {
+    match ink {
+        Ink::Ground => theme.panel,
+        Ink::Grid => theme.faint.gamma_multiply(0.7),
+        Ink::Role(Role::Robot) => theme.robot,
+        Ink::Role(Role::Choice) => theme.accent,
+        _ => {
+            let [r, g, b, a] = ink::color(ink, &Palette::for_dark(theme.dark), theme.dark).to_bytes();
+            Color32::from_rgba_unmultiplied(r, g, b, a)
+        }
+    }
+}
+
+/// A map as a texture, a pixel for each cell; `soft` blends neighbours.
+pub fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> TextureHandle {
+    let (columns, rows) = (map.columns, map.rows());
+    // Rows from the top of the page down, columns from its left.
+    let (turned, rising) = (map.x[0] > map.x[1], map.y[0] < map.y[1]);
+    let row = |k: usize| if rising { rows - 1 - k } else { k };
+    let cells = (0..rows).flat_map(|k| (0..columns).map(move |column| (k, column))).map(|(k, column)| {
+        let cell = row(k) * columns + if turned { columns - 1 - column } else { column };
+        let share = map.share(map.values[cell]);
+        if share.is_nan() {
+            return Color32::TRANSPARENT;
+        }
+        let color = color(Ink::Map(share), theme);
+        if map.is_faint(cell) { theme.raised.lerp_to_gamma(color, FAINT as f32) } else { color }
+    });
+    let image = ColorImage::new([columns, rows], cells.collect());
+    let options = if soft { TextureOptions::LINEAR } else { TextureOptions::NEAREST };
+    ctx.load_texture(name, image, options)
+}
+
+/// Paints the panels of a chart; `maps` has the texture of each panel that holds a map, by the panel's place.
+pub fn chart(
+    painter: &Painter,
+    theme: &Theme,
+    space: Rect,
+    chart: &Chart,
+    text: f32,
+    maps: &[TextureHandle],
+) -> Vec<Place> {
+    let size = [f64::from(space.width()), f64::from(space.height())];
+    let drawing = layout(chart, &Page { size, text: text.into(), words: false });
+    let brush = Brush { painter, theme, origin: space.min.to_vec2(), maps };
+    drawing.shapes.iter().for_each(|shape| brush.shape(shape));
+    drawing.frames.into_iter().map(|frame| Place { frame, origin: brush.origin }).collect()
+}
+
+struct Brush<'a> {
+    painter: &'a Painter,
+    theme: &'a Theme,
+    origin: Vec2,
+    maps: &'a [TextureHandle],
+}
+
+impl Brush<'_> {
+    fn color(&self, paint: Paint) -> Color32 {
+        color(paint.ink, self.theme).gamma_multiply(paint.opacity as f32)
+    }
+
+    fn pos(&self, point: Point) -> Pos2 {
+        pos(point, self.origin)
+    }
+
+    fn shape(&self, shape: &Shape) {
+        let painter = self.painter;
+        match shape {
+            Shape::Fill(place, paint) => {
+                painter.rect_filled(rect(*place, self.origin), 0.0, self.color(*paint));
+            }
+            Shape::Map(place, panel) => {
+                let place = rect(*place, self.origin);
+                painter.rect_filled(place, 0.0, self.theme.raised);
+                if let Some(texture) = self.maps.get(*panel) {
+                    let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
+                    painter.image(texture.id(), place, whole, Color32::WHITE);
+                }
+            }
+            Shape::Band(edges, paint) => self.band(edges, self.color(*paint)),
+            Shape::Line(points, paint, wide, dash) => {
+                let stroke = Stroke::new((*wide as f32).max(1.0), self.color(*paint));
+                let points = self.sharp(points.iter().map(|point| self.pos(*point)).collect());
+                match dash {
+                    Some([on, off]) => {
+                        painter.extend(egui::Shape::dashed_line(&points, stroke, *on as f32, *off as f32));
+                    }
+                    None => drop(painter.line(points, stroke)),
+                }
+            }
+            Shape::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
+            Shape::Text(text) => self.text(text),
+        }
+    }
+
+    /// A straight line along an axis on whole pixels.
+    fn sharp(&self, mut points: Vec<Pos2>) -> Vec<Pos2> {
+        if let [a, b] = &mut points[..] {
+            if a.x == b.x {
+                a.x = self.painter.round_to_pixel_center(a.x);
+                b.x = a.x;
+            } else if a.y == b.y {
+                a.y = self.painter.round_to_pixel_center(a.y);
+                b.y = a.y;
+            }
+        }
+        points
+    }
+
+    fn band(&self, edges: &[[Point; 2]], color: Color32) {
+        let mut mesh = Mesh::default();
+        for (k, edge) in edges.iter().enumerate() {
+            edge.iter().for_each(|point| mesh.colored_vertex(self.pos(*point), color));
+            if k > 0 {
+                let next = 2 * k as u32;
+                mesh.add_triangle(next - 2, next - 1, next);
+                mesh.add_triangle(next - 1, next, next + 1);
+            }
+        }
+        self.painter.add(egui::Shape::mesh(mesh));
+    }
+
+    fn mark(&self, at: Point, form: Form, radius: f64, paint: Paint, edge: Ink) {
+        let (fill, edge) = (self.color(paint), color(edge, self.theme));
+        let wide = (radius * form.stroke()) as f32;
+        let (place, r) = (self.pos(at), radius as f32);
+        let painter = self.painter;
+        match form {
+            Form::Triangle => {
+                let corners = form.triangle(at, radius).map(|corner| self.pos(corner));
+                painter.add(egui::Shape::convex_polygon(corners.to_vec(), fill, Stroke::new(0.5 * wide, edge)));
+            }
+            Form::Circle => drop(painter.circle(place, r, edge, Stroke::new(wide, fill))),
+            Form::Dot => drop(painter.circle(place, r, fill, Stroke::new(wide, edge))),
+            Form::Ring => drop(painter.circle_stroke(place, r, Stroke::new(wide, fill))),
+        }
+    }
+
+    fn text(&self, text: &Text) {
+        let (ink, size) = (color(text.ink, self.theme), text.size as f32);
+        let job = if text.strong {
+            job_in(&text.text, &fonts::strong_family(), size, ink)
+        } else {
+            job(&text.text, size, ink)
+        };
+        let galley = self.painter.layout_job(job);
+        let (at, [wide, high]) = (self.pos(text.at), galley.size().into());
+        let along = match text.align {
+            Align::Left => 0.0,
+            Align::Center => 0.5 * wide,
+            Align::Right => wide,
+        };
+        if text.upright {
+            // Turned about its upper left corner.
+            let shape = TextShape::new(at + vec2(-0.5 * high, along), galley, ink).with_angle(-FRAC_PI_2);
+            self.painter.add(shape);
+        } else {
+            let place = Align2::LEFT_CENTER.anchor_size(at - vec2(along, 0.0), vec2(wide, high));
+            self.painter.galley(place.min, galley, ink);
+        }
+    }
+}
