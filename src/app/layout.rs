@@ -252,7 +252,7 @@ mod tests {
                 let rects = Layout::new(page, sheet).all();
                 for (i, rect) in rects.iter().enumerate() {
                     assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
-                    assert!(rect.width() >= 180.0 && rect.height() >= 40.0, "{width}×{height}: {rect:?}");
+                    assert!(rect.width() >= 110.0 && rect.height() >= 36.0, "{width}×{height}: {rect:?}");
                     for other in &rects[..i] {
                         assert!(
                             !rect.shrink(0.5).intersects(other.shrink(0.5)),

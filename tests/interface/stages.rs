@@ -7,6 +7,9 @@ use egui::accesskit::Role;
 use egui::{Key, pos2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 
+/// High enough that no group of controls is scrolled out of sight.
+const TALL: egui::Vec2 = vec2(1440.0, 1900.0);
+
 /// Picks a stage: its view in the bar, and what of the paper it is; then waits until its work is done.
 pub fn show(page: &mut Page, name: &str) {
     let stage = Stage::ALL.into_iter().find(|stage| stage.name() == name).expect("a stage");
@@ -166,7 +169,7 @@ fn a_click_on_the_map_puts_the_contact_there() {
 
 #[test]
 fn odd_scenarios_are_shown_or_refused_in_words() {
-    let mut page = page_of(DESK);
+    let mut page = page_of(TALL);
     page.get_by_role_and_label(Role::Button, "Motion").click();
     page.run_steps(2);
     for (label, value) in [("Contact disk", 0.0), ("θL at the end", 90.0), ("Filter length N", 1.0), ("Run ends", 1.0)]
@@ -208,7 +211,7 @@ fn keys_do_nothing_behind_the_help() {
 
 #[test]
 fn the_clock_shows_the_cursor_of_the_views() {
-    let mut page = page_of(DESK);
+    let mut page = page_of(TALL);
     page.get_by_role_and_label(Role::Button, "Motion").click();
     page.run_steps(2);
     slide(&mut page, "Time", 9.5);

@@ -298,11 +298,13 @@ fn presets_theme_groups_and_help() {
     assert_eq!(app(&page).state().preset, "disk-3");
     assert!((detection_time(&page).expect("detected") - 5.61).abs() < 0.1);
     assert!(page.query_by_role_and_label(Role::Slider, "Length L").is_none());
-    click(&mut page, "Robot");
+    page.get_by_role_and_label(Role::Button, "Robot").click();
+    page.run_steps(2);
     assert!(page.query_by_role_and_label(Role::Slider, "Length L").is_some());
     type_into(&mut page, "Length L", "20 mm");
     assert!(page.query_by_label_contains("robot.disks[2]").is_some(), "{:?}", app(&page).notes());
-    click(&mut page, "Robot");
+    page.get_by_role_and_label(Role::Button, "Robot").click();
+    page.run_steps(2);
     click(&mut page, "Tracker");
     click(&mut page, "aligned");
     assert_eq!(app(&page).state().scenario.tracker.mounting, centrode_core::scenario::Mounting::Aligned);

@@ -24,7 +24,11 @@ impl Page {
     fn new(name: &str, cursor: f64) -> Self {
         let scenario = preset::find(name).and_then(preset::Preset::scenario).expect("preset");
         let run = simulate(&scenario).expect("run");
-        Self { scenario, run, cursor, state: PlotState::default(), log: Vec::new() }
+        // The page remembers what a threshold was before it was switched off.
+        let otherwise = [scenario.detection.xi2, scenario.detection.xi1].map(|set| set.value().unwrap_or(0.0));
+        let mut state = PlotState::default();
+        state.otherwise = otherwise;
+        Self { scenario, run, cursor, state, log: Vec::new() }
     }
 
     fn apply(&mut self, commands: Vec<Command>) {

@@ -12,6 +12,10 @@ use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2};
 
 /// Size of the chart's text, points.
 const TEXT: f32 = 11.5;
+/// A stage lower than this has the words beside the chart.
+const LOW: f32 = 260.0;
+/// Width of the words there.
+const ASIDE: f32 = 250.0;
 /// The pointer reads a point this near.
 const REACH: f32 = 28.0;
 
@@ -22,9 +26,14 @@ pub fn figure(ui: &mut Ui, rect: Rect, chart: &Chart, inputs: &Inputs<'_>) {
     let height = title.size().y;
     ui.painter().galley(rect.min, title, theme.ink);
 
-    // The words below take what they need; the chart has the rest.
-    let foot = words(ui, rect, chart, inputs, &theme);
-    let space = Rect::from_min_max(pos2(rect.left(), rect.top() + height + 10.0), pos2(rect.right(), foot - 8.0));
+    // The words take what they need, below the chart or, where it would be too low, beside it.
+    let below = rect.with_min_y(rect.top() + height + 10.0);
+    let space = if below.height() < LOW && below.width() > 2.0 * ASIDE {
+        words(ui, below.with_min_x(below.right() - ASIDE), chart, inputs, &theme);
+        below.with_max_x(below.right() - ASIDE - 12.0)
+    } else {
+        below.with_max_y(words(ui, rect, chart, inputs, &theme) - 8.0)
+    };
     let painter = ui.painter().clone();
     let places = paint::chart(&painter, &theme, space, chart, TEXT, &[]);
     let (Some(place), Some(panel)) = (places.first(), chart.panels.first()) else { return };
@@ -50,7 +59,7 @@ fn words(ui: &mut Ui, rect: Rect, chart: &Chart, inputs: &Inputs<'_>, theme: &Th
     let mut line = job(&command, 11.5, theme.ink);
     line.wrap.max_width = rect.width();
     let heights = [&caption, &line].map(|job| ui.painter().layout_job(job.clone()).size().y);
-    let top = rect.bottom() - heights.iter().sum::<f32>() - 6.0;
+    let top = (rect.bottom() - heights.iter().sum::<f32>() - 6.0).max(rect.top());
     let place = Rect::from_min_max(pos2(rect.left(), top), rect.max);
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("caption"));
     inner.spacing_mut().item_spacing.y = 4.0;
