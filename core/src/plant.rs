@@ -65,17 +65,19 @@ impl<'a> Plant<'a> {
     /// Which of the plan's contacts holds the backbone in a commanded configuration.
     #[must_use]
     pub fn held(&self, configuration: &Configuration) -> Option<usize> {
-        self.plan.contact().is_some_and(|contact| contact.holds_at(configuration.bend())).then_some(0)
+        self.plan.contacts().iter().position(|contact| contact.holds_at(configuration.bend()))
+    }
+
+    fn holding(&self, configuration: &Configuration) -> Option<&PlannedContact> {
+        self.held(configuration).map(|place| &self.plan.contacts()[place])
     }
 
     /// The true shape in a commanded configuration.
     #[must_use]
     pub fn shape(&self, configuration: Configuration) -> Shape {
         let length = self.plan.segment().length;
-        match self.plan.contact() {
-            Some(contact) if contact.holds_at(configuration.bend()) => {
-                Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration))
-            }
+        match self.holding(&configuration) {
+            Some(contact) => Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration)),
             _ => Shape::Free(Arc { length, configuration }),
         }
     }
@@ -102,7 +104,7 @@ impl<'a> Plant<'a> {
     pub fn joint_forces(&self, configuration: Configuration, wrench: &Wrench) -> Vec3 {
         let segment = self.plan.segment();
         let preload = self.plan.scenario().load_cells.preload;
-        let (part, shape) = moved_part(segment, self.plan.contact(), configuration);
+        let (part, shape) = moved_part(segment, self.holding(&configuration), configuration);
         if part.shortest_backbone(shape.bend()) <= 0.0 {
             return Vec3::repeat(f64::NAN);
         }

@@ -58,8 +58,10 @@ impl PlannedContact {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     scenario: Scenario,
-    segment: Segment,
-    contact: Option<PlannedContact>,
+    /// From the base up; one, for now.
+    segments: Vec<Segment>,
+    /// In the order of the scenario; at most one, for now.
+    contacts: Vec<PlannedContact>,
     samples: usize,
 }
 
@@ -71,8 +73,8 @@ impl Plan {
     pub fn new(scenario: &Scenario) -> Result<Self, ScenarioError> {
         KEYS.iter().try_for_each(|key| key.check(scenario))?;
         Ok(Self {
-            segment: scenario.robot.segment(),
-            contact: resolve_contact(scenario),
+            segments: vec![scenario.robot.segment()],
+            contacts: resolve_contact(scenario).into_iter().collect(),
             samples: steps(scenario) as usize + 1,
             scenario: scenario.clone(),
         })
@@ -90,16 +92,28 @@ impl Plan {
         &self.scenario
     }
 
-    /// The segment.
+    /// The segments, from the base up: at least one.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// What the backbone may meet.
+    #[must_use]
+    pub fn contacts(&self) -> &[PlannedContact] {
+        &self.contacts
+    }
+
+    /// The segment at the base.
     #[must_use]
     pub fn segment(&self) -> &Segment {
-        &self.segment
+        &self.segments[0]
     }
 
     /// The beam, when there is one.
     #[must_use]
     pub fn contact(&self) -> Option<&PlannedContact> {
-        self.contact.as_ref()
+        self.contacts.first()
     }
 
     /// Number of loop samples, from t = 0 to the end, both included.
