@@ -80,7 +80,7 @@ fn tuning(c: &mut Criterion) {
                     let firsts = study.run(piece);
                     counted.lock().expect("no panic").add(piece.0, &firsts);
                 });
-                counted.into_inner().expect("no panic").point(0, centrode_core::study::tuning::watch::Method::Fcd, 69)
+                counted.into_inner().expect("no panic").point(0, centrode_core::study::tuning::watch::Rule::Fcd, 69)
             });
         });
     }

@@ -28,7 +28,7 @@ use centrode_core::scenario::Scenario;
 use centrode_core::scenario::keys::find;
 use centrode_core::scenario::preset::Preset;
 use centrode_core::scenario::{Contact, Place, Start, Xi1Rule};
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use charts::plane;
 use charts::plots::{self, PlotState};
 use command::Command;
@@ -369,10 +369,10 @@ impl App {
     }
 
     /// Takes what a study has shown.
-    fn take(&mut self, method: Method, threshold: f64, length: Option<u64>) {
+    fn take(&mut self, method: Rule, threshold: f64, length: Option<u64>) {
         let key = match (method, self.state.scenario.detection.xi1_rule) {
-            (Method::Jfd, Xi1Rule::Constant) => "detection.xi1",
-            (Method::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
+            (Rule::Jfd, Xi1Rule::Constant) => "detection.xi1",
+            (Rule::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
             _ => "detection.xi2",
         };
         self.change(&[key, "filter.length"], |s| {

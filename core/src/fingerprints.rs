@@ -10,7 +10,7 @@ use crate::study::Job;
 use crate::study::figure::{FigureJob, Number};
 use crate::study::map::MapJob;
 use crate::study::table2::Table2Job;
-use crate::study::tuning::watch::Method;
+use crate::study::tuning::watch::Rule;
 use crate::study::tuning::{Spec, Study};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -50,7 +50,7 @@ pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
     let cells = [200, 400, 600].map(|length| vec![format!("filter.length={length}")]).into();
     let mut study = Study::new(Spec { scenario: noisy, repeats: 50, late: 1.0, cells, xi2: None, xi1: None })?;
     study.finish();
-    let points = |cell| Method::ALL.map(|method| (method.name(), study.curve(cell, method)));
+    let points = |cell| Rule::ALL.map(|method| (method.name(), study.curve(cell, method)));
     let curves: Vec<Value> = (0..study.cells().len()).map(|cell| json!(points(cell))).collect();
     add("study".into(), hash(&json!(curves)));
     Ok(all)

@@ -5,7 +5,7 @@ use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
 use centrode_core::scenario::Threshold;
 use centrode_core::scenario::preset::Preset;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 
 /// One wish.
 #[derive(Debug, Clone)]
@@ -64,7 +64,7 @@ pub enum Command {
     /// Take a threshold, ξ2 (m) or ξ1 (N·m, or k where it follows the shape), and a filter length.
     Take {
         /// Whose threshold it is.
-        method: Method,
+        method: Rule,
         /// The threshold.
         threshold: f64,
         /// The filter length; none leaves it.

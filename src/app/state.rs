@@ -10,7 +10,7 @@ use crate::app::stages::stage::Stage;
 use crate::app::theme::ThemeChoice;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::preset::{self, PRESETS, Preset};
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
 const LEAD_IN: f64 = 0.4;
@@ -56,7 +56,7 @@ pub struct State {
 #[serde(default)]
 pub struct Tuning {
     /// How alarms are raised.
-    pub method: Method,
+    pub method: Rule,
     /// The most runs without contact that may alarm, as a share.
     pub wish: f64,
     /// Repeats of each run.
@@ -65,7 +65,7 @@ pub struct Tuning {
 
 impl Default for Tuning {
     fn default() -> Self {
-        Self { method: Method::Fcd, wish: 0.05, repeats: 100 }
+        Self { method: Rule::Fcd, wish: 0.05, repeats: 100 }
     }
 }
 

@@ -21,13 +21,9 @@ fn noted(commands: Vec<Command>) -> Vec<(&'static str, String)> {
 fn a_refused_recommendation_is_noted_at_the_control_refused() {
     let take = |method, threshold, length| noted(vec![Command::Take { method, threshold, length }]);
     for (notes, key, said) in [
-        (
-            take(Method::Fcd, 0.005, Some(99_999_999)),
-            "filter.length",
-            "Filter length N 99999999: a whole number from 1",
-        ),
-        (take(Method::Fcd, -1.0, Some(100)), "detection.xi2", "ξ2 (centrode) −1000.0 mm: a finite number, 0 mm"),
-        (take(Method::Jfd, -1.0, None), "detection.xi1", "ξ1 (joint force) −1000.0 mN·m: a finite number"),
+        (take(Rule::Fcd, 0.005, Some(99_999_999)), "filter.length", "Filter length N 99999999: a whole number from 1"),
+        (take(Rule::Fcd, -1.0, Some(100)), "detection.xi2", "ξ2 (centrode) −1000.0 mm: a finite number, 0 mm"),
+        (take(Rule::Jfd, -1.0, None), "detection.xi1", "ξ1 (joint force) −1000.0 mN·m: a finite number"),
     ] {
         assert_eq!(notes.len(), 1);
         assert!(notes[0].0 == key && notes[0].1.starts_with(said), "{notes:?}");

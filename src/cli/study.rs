@@ -13,7 +13,7 @@ use centrode_core::study::Job;
 use centrode_core::study::tuning::chart::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::sweep::{Sweep, SweepError, combinations};
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -61,7 +61,7 @@ enum MethodArg {
     And,
 }
 
-impl From<MethodArg> for Method {
+impl From<MethodArg> for Rule {
     fn from(method: MethodArg) -> Self {
         match method {
             MethodArg::Fcd => Self::Fcd,
@@ -113,8 +113,8 @@ struct ByMethod<T> {
 }
 
 impl<T> ByMethod<T> {
-    fn of(of: impl Fn(Method) -> T) -> Self {
-        Self { fcd: of(Method::Fcd), jfd: of(Method::Jfd), or: of(Method::Or), and: of(Method::And) }
+    fn of(of: impl Fn(Rule) -> T) -> Self {
+        Self { fcd: of(Rule::Fcd), jfd: of(Rule::Jfd), or: of(Rule::Or), and: of(Rule::And) }
     }
 }
 

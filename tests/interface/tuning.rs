@@ -3,7 +3,7 @@
 use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, slide, texts};
 use centrode::app::stages::stage::Stage;
 use centrode_core::scenario::Threshold;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use egui::accesskit::Role;
 use egui::{Event, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -141,7 +141,7 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
         page.run_steps(2);
         assert!(!said(&page, part).is_empty(), "{option}: {part}");
     }
-    assert_eq!(app(&page).state().tuning.method, Method::Or);
+    assert_eq!(app(&page).state().tuning.method, Rule::Or);
 }
 
 #[test]

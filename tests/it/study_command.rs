@@ -3,7 +3,7 @@
 use crate::cli::{centrode, json, scratch};
 use centrode_core::scenario::preset::find;
 use centrode_core::study::Job;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Spec, Study};
 use serde_json::Value;
 use std::process::{Command, Stdio};
@@ -22,7 +22,7 @@ fn json_holds_the_library_s_study() {
     let theirs = library(9, &[&["filter.length=300"], &["filter.length=600"]]);
     assert_eq!(ours["partial"], false);
     for cell in 0..2 {
-        for method in Method::ALL {
+        for method in Rule::ALL {
             let point = theirs.own(cell, method).map(|level| theirs.point(cell, method, level));
             let expected = serde_json::to_value(point).expect("JSON");
             assert_eq!(ours["cells"][cell]["own"][method.name()], expected, "{cell} {method:?}");

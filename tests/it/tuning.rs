@@ -9,7 +9,7 @@ use centrode_core::study::Job;
 use centrode_core::study::seed::repeat_seed;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend};
 use centrode_core::study::tuning::remote::{Answer, Remote, Request};
-use centrode_core::study::tuning::watch::{Method, NEVER};
+use centrode_core::study::tuning::watch::{NEVER, Rule};
 use centrode_core::study::tuning::{Spec, Study};
 
 fn noisy(sets: &[&str]) -> Scenario {
@@ -27,17 +27,17 @@ fn study(scenario: &Scenario, repeats: usize, cells: &[&[&str]]) -> Study {
 
 /// The sample of a run's first alarm, from what the run itself reports: for one method or either of them its crossings, for
 /// both the samples at which both values lie above their thresholds.
-fn first_alarm(scenario: &Scenario, method: Method) -> u32 {
+fn first_alarm(scenario: &Scenario, method: Rule) -> u32 {
     let run = simulate(scenario).expect("valid");
     let sample = |time: f64| run.samples().position(|sample| sample.time == time).expect("a sample") as u32;
     let crossed = |lamp: Lamp| {
         run.crossings().iter().find(|crossing| crossing.method == lamp).map_or(NEVER, |crossing| sample(crossing.time))
     };
     match method {
-        Method::Fcd => crossed(Lamp::Fcd),
-        Method::Jfd => crossed(Lamp::Jfd),
-        Method::Or => crossed(Lamp::Fcd).min(crossed(Lamp::Jfd)),
-        Method::And => both(scenario, &run),
+        Rule::Fcd => crossed(Lamp::Fcd),
+        Rule::Jfd => crossed(Lamp::Jfd),
+        Rule::Or => crossed(Lamp::Fcd).min(crossed(Lamp::Jfd)),
+        Rule::And => both(scenario, &run),
     }
 }
 
@@ -82,17 +82,17 @@ fn one_pass_gives_what_a_run_with_each_threshold_gives() {
         let firsts = study.run((batch, repeat));
         let levels = study.batches()[batch].levels.clone();
         let seed = repeat_seed(base.seed, repeat);
-        for method in Method::ALL {
+        for method in Rule::ALL {
             let values = method.levels(&levels);
             // The smallest, the largest, and some between.
             for level in (0..values.len()).step_by(17).chain([values.len() - 1]) {
                 let mut scenario = Scenario { seed, ..base.clone() };
                 match (method, scenario.detection.xi1_rule) {
-                    (Method::Jfd, Xi1Rule::Constant) => scenario.detection.xi1 = Threshold::On(values[level]),
-                    (Method::Jfd, Xi1Rule::Bound) => scenario.detection.xi1_factor = values[level],
+                    (Rule::Jfd, Xi1Rule::Constant) => scenario.detection.xi1 = Threshold::On(values[level]),
+                    (Rule::Jfd, Xi1Rule::Bound) => scenario.detection.xi1_factor = values[level],
                     _ => scenario.detection.xi2 = Threshold::On(values[level]),
                 }
-                if method == Method::Jfd && base.detection.xi1 == Threshold::OFF {
+                if method == Rule::Jfd && base.detection.xi1 == Threshold::OFF {
                     continue;
                 }
                 let expected = first_alarm(&scenario, method);
@@ -109,7 +109,7 @@ fn the_first_alarm_is_the_first_crossing_of_the_run() {
     let study = study(&base, 1, &[&[]]);
     let run = simulate(&base).expect("valid");
     let firsts = study.run((study.cells()[0].held.expect("contact"), 0));
-    for (lamp, method) in [(Lamp::Fcd, Method::Fcd), (Lamp::Jfd, Method::Jfd)] {
+    for (lamp, method) in [(Lamp::Fcd, Rule::Fcd), (Lamp::Jfd, Rule::Jfd)] {
         let level = study.own(0, method).expect("its own threshold");
         let crossing = run.crossings().iter().find(|crossing| crossing.method == lamp).expect("an alarm");
         assert_eq!(run.plan.time(firsts[method as usize][level] as usize), crossing.time);
@@ -144,8 +144,8 @@ fn without_noise_the_study_is_the_run() {
     let mut study = study(&paper, 3, &[&[]]);
     study.finish();
     let run = simulate(&paper).expect("valid");
-    let level = study.own(0, Method::Fcd).expect("7 mm");
-    let point = study.point(0, Method::Fcd, level);
+    let level = study.own(0, Rule::Fcd).expect("7 mm");
+    let point = study.point(0, Rule::Fcd, level);
     let seen = point.detection.expect("contact");
     assert_eq!((point.false_alarms.rate.count, seen.detected.count), (0, 3));
     let delay = run.detection().expect("found").time - study.contact_time(0).expect("contact");
@@ -160,7 +160,7 @@ fn without_noise_the_study_is_the_run() {
 fn higher_thresholds_are_quieter_and_later() {
     let mut study = study(&noisy(&[]), 20, &[&[]]);
     study.finish();
-    for method in Method::ALL {
+    for method in Rule::ALL {
         for pair in study.curve(0, method).windows(2) {
             assert!(pair[0].false_alarms.rate.count >= pair[1].false_alarms.rate.count, "{method:?}");
             let [low, high] = [&pair[0], &pair[1]].map(|point| point.detection.expect("contact"));
@@ -168,11 +168,11 @@ fn higher_thresholds_are_quieter_and_later() {
         }
     }
     // Either alarms whenever one does; both, only when each does.
-    let own = study.own(0, Method::Fcd).expect("on");
+    let own = study.own(0, Rule::Fcd).expect("on");
     let alarms = |method, level| study.point(0, method, level).false_alarms.rate.count;
-    let jfd = alarms(Method::Jfd, study.own(0, Method::Jfd).expect("on"));
-    assert!(alarms(Method::Or, own) >= alarms(Method::Fcd, own).max(jfd));
-    assert!(alarms(Method::And, own) <= alarms(Method::Fcd, own).min(jfd));
+    let jfd = alarms(Rule::Jfd, study.own(0, Rule::Jfd).expect("on"));
+    assert!(alarms(Rule::Or, own) >= alarms(Rule::Fcd, own).max(jfd));
+    assert!(alarms(Rule::And, own) <= alarms(Rule::Fcd, own).min(jfd));
 }
 
 #[test]
@@ -181,13 +181,13 @@ fn a_recommendation_keeps_the_wish_and_is_the_soonest() {
     let cells: Vec<&[&str]> = lengths.iter().map(|cell| &cell[..]).collect();
     let mut study = study(&noisy(&[]), 80, &cells);
     study.finish();
-    let wish = Wish { method: Method::Fcd, false_alarm_rate: 0.1 };
+    let wish = Wish { method: Rule::Fcd, false_alarm_rate: 0.1 };
     let Verdict::Take { cell, level, point } = recommend(&study, &wish) else { panic!("none") };
-    assert_eq!(*point, study.point(cell, Method::Fcd, level));
+    assert_eq!(*point, study.point(cell, Rule::Fcd, level));
     assert!(point.false_alarms.rate.high <= 0.1);
     let median = point.detection.expect("contact").median;
     for cell in 0..3 {
-        for other in study.curve(cell, Method::Fcd) {
+        for other in study.curve(cell, Rule::Fcd) {
             let quiet = other.false_alarms.rate.high <= 0.1;
             let delay = other.detection.expect("contact").median;
             assert!(!quiet || delay.is_nan() || delay >= median, "{other:?}");
@@ -200,7 +200,7 @@ fn a_recommendation_keeps_the_wish_and_is_the_soonest() {
 
 #[test]
 fn what_cannot_be_had_is_said() {
-    let wish = Wish { method: Method::Fcd, false_alarm_rate: 0.2 };
+    let wish = Wish { method: Rule::Fcd, false_alarm_rate: 0.2 };
     let verdict = |sets: &[&str], late: f64| {
         let mut study = study(&noisy(sets), 20, &[&[]]);
         study = Study::new(Spec { late, ..study.spec().clone() }).expect("a study");

@@ -27,8 +27,8 @@ use crate::scenario::{Place, Threshold};
 use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use levels::Levels;
 use serde::{Deserialize, Serialize};
-use tally::{Clock, Detection, FalseAlarms, Tally, detection, false_alarms};
-use watch::{Firsts, Method, first_alarms};
+use tally::{Clock, FalseAlarms, Found, Tally, detection, false_alarms};
+use watch::{Firsts, Rule, first_alarms};
 
 /// The most repeats of one scenario.
 pub const MAX_REPEATS: usize = 10_000_000;
@@ -87,7 +87,7 @@ pub struct Point {
     /// In runs without contact.
     pub false_alarms: FalseAlarms,
     /// In runs with contact; none when the scenario has no contact.
-    pub detection: Option<Detection>,
+    pub detection: Option<Found>,
 }
 
 /// A study, as far as it has come.
@@ -150,7 +150,7 @@ impl Study {
         if let Some(place) = place {
             return Ok(place);
         }
-        let count = |levels: &Levels| Method::ALL.iter().map(|method| method.levels(levels).len()).sum::<usize>();
+        let count = |levels: &Levels| Rule::ALL.iter().map(|method| method.levels(levels).len()).sum::<usize>();
         self.counts += count(&levels);
         if self.counts > MAX_COUNTS {
             let allowed = Allowed::Need("at most 20000000 thresholds in all cells; compare fewer values or thresholds");
@@ -233,8 +233,8 @@ impl Study {
     /// another batch or of other thresholds is left.
     pub fn set(&mut self, batch: usize, tally: Tally) -> bool {
         let Some(batch) = self.batches.get_mut(batch) else { return false };
-        let fits =
-            Method::ALL.map(|method| method.levels(&batch.levels).len()) == tally.counts.each_ref().map(Vec::len);
+        let counted = tally.counts.iter().map(Vec::len);
+        let fits = Rule::ALL.iter().map(|rule| rule.levels(&batch.levels).len()).eq(counted);
         if fits && tally.runs > batch.tally.runs {
             batch.tally = tally;
         }
@@ -266,7 +266,7 @@ impl Study {
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn levels(&self, cell: usize, method: Method) -> &[f64] {
+    pub fn levels(&self, cell: usize, method: Rule) -> &[f64] {
         method.levels(&self.batches[self.cells[cell].free].levels)
     }
 
@@ -275,7 +275,7 @@ impl Study {
     /// # Panics
     /// When there is no such cell or level.
     #[must_use]
-    pub fn point(&self, cell: usize, method: Method, level: usize) -> Point {
+    pub fn point(&self, cell: usize, method: Rule, level: usize) -> Point {
         let Cell { free, held, .. } = self.cells[cell];
         let free = &self.batches[free];
         Point {
@@ -293,7 +293,7 @@ impl Study {
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn curve(&self, cell: usize, method: Method) -> Vec<Point> {
+    pub fn curve(&self, cell: usize, method: Rule) -> Vec<Point> {
         (0..self.levels(cell, method).len()).map(|level| self.point(cell, method, level)).collect()
     }
 
@@ -302,9 +302,9 @@ impl Study {
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn own(&self, cell: usize, method: Method) -> Option<usize> {
+    pub fn own(&self, cell: usize, method: Rule) -> Option<usize> {
         let scenario = &self.cells[cell].scenario;
-        let setting = if method == Method::Jfd { xi1_setting(scenario) } else { scenario.detection.xi2.value() };
+        let setting = if method == Rule::Jfd { xi1_setting(scenario) } else { scenario.detection.xi2.value() };
         self.levels(cell, method).iter().position(|&level| Some(level) == setting)
     }
 
@@ -377,10 +377,10 @@ mod tests {
     #[test]
     fn what_is_not_begun_has_no_counts() {
         let mut study = Study::new(spec(50)).expect("possible");
-        assert!(study.batches().iter().all(|batch| batch.tally.counts.iter().all(Vec::is_empty)));
-        assert_eq!(study.point(0, Method::Fcd, 3).false_alarms.rate.of, 0);
+        assert!(study.batches().iter().all(|batch| batch.tally.counts.is_empty()));
+        assert_eq!(study.point(0, Rule::Fcd, 3).false_alarms.rate.of, 0);
         study.step();
-        let begun = study.batches().iter().filter(|batch| !batch.tally.counts[0].is_empty());
+        let begun = study.batches().iter().filter(|batch| !batch.tally.counts.is_empty());
         assert_eq!(begun.count(), 1);
         // More pieces than 32 bits count.
         let of = 2 * 500 * MAX_REPEATS as u64;

@@ -2,7 +2,7 @@
 
 use centrode_core::scenario::{Place, Scenario, Threshold};
 use centrode_core::study::tuning::remote::{Answer, Request};
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study, xi1_setting};
 use centrode_core::study::{Job, Progress};
 use serde_json::{Value, json};
@@ -252,14 +252,14 @@ impl Tuner {
 
     /// The threshold of a method that is set, m, N·m, or k; none while it is switched off.
     #[must_use]
-    pub fn setting(&self, method: Method) -> Option<f64> {
+    pub fn setting(&self, method: Rule) -> Option<f64> {
         let (study, _, _) = self.shown()?;
-        if method == Method::Jfd { xi1_setting(&study.cells()[0].scenario) } else { self.xi2 }
+        if method == Rule::Jfd { xi1_setting(&study.cells()[0].scenario) } else { self.xi2 }
     }
 
     /// The level whose counts stand for the threshold that is set: the nearest one.
     #[must_use]
-    pub fn level(&self, method: Method) -> Option<usize> {
+    pub fn level(&self, method: Rule) -> Option<usize> {
         let (study, _, _) = self.shown()?;
         let (setting, levels) = (self.setting(method)?, study.levels(0, method));
         let away = |level: &usize| (levels[*level] - setting).abs();
@@ -268,14 +268,14 @@ impl Tuner {
 
     /// What the thresholds that are set come to; between two levels, what the nearest comes to.
     #[must_use]
-    pub fn own(&self, method: Method) -> Option<Point> {
+    pub fn own(&self, method: Rule) -> Option<Point> {
         let (study, _, _) = self.shown()?;
         Some(study.point(0, method, self.level(method)?))
     }
 
     /// The same as JSON for whoever reads the page without eyes, with the progress in runs.
     #[must_use]
-    pub fn report(&self, method: Method) -> Option<Value> {
+    pub fn report(&self, method: Rule) -> Option<Value> {
         let (study, _) = self.study.as_ref()?;
         let progress = study.progress();
         Some(json!({
@@ -388,7 +388,7 @@ mod tests {
             assert!(finish(tuner) > 3);
         }
         assert_eq!(alone.shown().map(|(study, ..)| study), helped.shown().map(|(study, ..)| study));
-        assert_eq!(alone.own(Method::Fcd), helped.own(Method::Fcd));
+        assert_eq!(alone.own(Rule::Fcd), helped.own(Rule::Fcd));
     }
 
     #[test]
@@ -430,8 +430,8 @@ mod tests {
             scenario.detection.xi2 = Threshold::On(xi2);
             tuner.update(Some(&scenario), 3);
             assert_eq!((tuner.left(), near.0.borrow().asked), (None, asked), "{xi2} m");
-            assert_eq!(tuner.setting(Method::Fcd), Some(xi2));
-            let counted = tuner.own(Method::Fcd).expect("a point").threshold;
+            assert_eq!(tuner.setting(Rule::Fcd), Some(xi2));
+            let counted = tuner.own(Rule::Fcd).expect("a point").threshold;
             assert!((counted - xi2).abs() <= 0.000_05 + 1e-9, "{counted} m for {xi2} m");
         }
     }
@@ -447,7 +447,7 @@ mod tests {
         scenario.detection.xi2 = Threshold::On(0.0043);
         tuner.update(Some(&scenario), 3);
         assert_eq!((tuner.left(), near.0.borrow().asked), (None, asked));
-        assert_eq!(tuner.own(Method::Fcd).map(|point| point.threshold), Some(0.0043));
+        assert_eq!(tuner.own(Rule::Fcd).map(|point| point.threshold), Some(0.0043));
         scenario.filter.length = 300;
         tuner.update(Some(&scenario), 3);
         // The other disks at that length.
@@ -455,11 +455,11 @@ mod tests {
         scenario.detection.xi2 = Threshold::On(0.0);
         tuner.update(Some(&scenario), 3);
         finish(&mut tuner);
-        assert_eq!(tuner.own(Method::Fcd).map(|point| point.false_alarms.rate.rate), Some(1.0));
+        assert_eq!(tuner.own(Rule::Fcd).map(|point| point.false_alarms.rate.rate), Some(1.0));
         scenario.detection.xi2 = Threshold::OFF;
         tuner.update(Some(&scenario), 3);
         finish(&mut tuner);
-        assert!(tuner.own(Method::Fcd).is_none() && tuner.own(Method::Jfd).is_some());
+        assert!(tuner.own(Rule::Fcd).is_none() && tuner.own(Rule::Jfd).is_some());
         // Nobody looks: nothing is made; and again it goes on.
         tuner.update(None, 3);
         assert_eq!((tuner.work(0.0), tuner.progress()), (false, None));
@@ -480,15 +480,15 @@ mod tests {
         scenario.motion.end = 8.0;
         tuner.update(Some(&scenario), 25);
         finish(&mut tuner);
-        let point = tuner.own(Method::Fcd);
+        let point = tuner.own(Rule::Fcd);
         scenario.tracker.position_noise *= 3.0;
         tuner.update(Some(&scenario), 25);
         tuner.work(0.0);
         scenario.tracker.position_noise *= 1.5;
         tuner.update(Some(&scenario), 25);
         tuner.work(0.0);
-        assert_eq!(tuner.own(Method::Fcd), point);
+        assert_eq!(tuner.own(Rule::Fcd), point);
         finish(&mut tuner);
-        assert_ne!(tuner.own(Method::Fcd), point);
+        assert_ne!(tuner.own(Rule::Fcd), point);
     }
 }

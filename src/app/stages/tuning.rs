@@ -18,7 +18,7 @@ use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
 use egui::{Align2, Color32, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
 use lengths::Picture;
@@ -48,28 +48,28 @@ pub struct Named {
 }
 
 impl Named {
-    fn of(method: Method, study: &Study) -> Self {
+    fn of(method: Rule, study: &Study) -> Self {
         use centrode_core::scenario::Xi1Rule;
         let name = match method {
-            Method::Fcd => "Centrode",
-            Method::Jfd => "Forces",
-            Method::Or => "Either",
-            Method::And => "Both",
+            Rule::Fcd => "Centrode",
+            Rule::Jfd => "Forces",
+            Rule::Or => "Either",
+            Rule::And => "Both",
         };
         match (method, study.spec().scenario.detection.xi1_rule) {
-            (Method::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
-            (Method::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
+            (Rule::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
+            (Rule::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
             _ => Self { name, symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
         }
     }
 }
 
-fn color(method: Method, theme: &Theme) -> Color32 {
+fn color(method: Rule, theme: &Theme) -> Color32 {
     match method {
-        Method::Fcd => theme.sensor,
-        Method::Jfd => theme.force,
-        Method::Or => theme.ink,
-        Method::And => theme.dim,
+        Rule::Fcd => theme.sensor,
+        Rule::Jfd => theme.force,
+        Rule::Or => theme.ink,
+        Rule::And => theme.dim,
     }
 }
 
@@ -77,9 +77,10 @@ fn color(method: Method, theme: &Theme) -> Color32 {
 struct Derived {
     version: u64,
     tuning: Tuning,
-    curves: [Vec<Point>; 4],
-    own: [Option<usize>; 4],
-    settings: [Option<f64>; 4],
+    /// By rule.
+    curves: Vec<Vec<Point>>,
+    own: Vec<Option<usize>>,
+    settings: Vec<Option<f64>>,
     verdict: Verdict,
 }
 
@@ -116,7 +117,7 @@ impl View<'_> {
     /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
     fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
         let method = self.tuning.method;
-        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Method::Jfd) });
+        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Rule::Jfd) });
     }
 
     /// Takes a level of the chosen method.
@@ -188,21 +189,21 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
     let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
     // Joint forces are not filtered: one length says it all.
     let lengths =
-        if tuning.method == Method::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
+        if tuning.method == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
     Derived {
         version,
         tuning,
-        curves: Method::ALL.map(|method| study.curve(0, method)),
-        own: Method::ALL.map(|method| tuner.level(method)),
-        settings: Method::ALL.map(|method| tuner.setting(method)),
+        curves: Rule::ALL.iter().map(|&rule| study.curve(0, rule)).collect(),
+        own: Rule::ALL.iter().map(|&rule| tuner.level(rule)).collect(),
+        settings: Rule::ALL.iter().map(|&rule| tuner.setting(rule)).collect(),
         verdict: recommend_among(study, lengths, &wish),
     }
 }
 
-/// Method, wish, repeats, and the button that stops.
+/// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names = Method::ALL.map(|method| Named::of(method, view.study).name);
+    let names = Rule::ALL.map(|method| Named::of(method, view.study).name);
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
         ("Alarm by", names.to_vec(), tuning.method as usize, 280.0),
         (
@@ -232,7 +233,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
         let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
         if let Some(picked) = segmented(ui, place, label, &options, chosen) {
             out.push(Command::Tune(match k {
-                0 => Tuning { method: Method::ALL[picked], ..tuning },
+                0 => Tuning { method: Rule::ALL[picked], ..tuning },
                 1 => Tuning { wish: WISHES[picked].0, ..tuning },
                 _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
             }));

@@ -3,7 +3,7 @@
 use crate::cli::output::{Failure, NewFile, cell, finish_csv, write_record};
 use centrode_core::study::tuning::Study;
 use centrode_core::study::tuning::rate::Rate;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 
 /// Columns after those of the swept keys. Thresholds are ξ2 in m, or ξ1 in N·m, or k where ξ1 follows the shape.
 const COLUMNS: [&str; 27] = [
@@ -46,7 +46,7 @@ pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
         let values = settings.set.iter().map(|set| set.split_once('=').map_or("", |(_, value)| value).to_owned());
         let values: Vec<String> = values.collect();
         let contact = study.contact_time(k).map_or_else(String::new, cell);
-        for method in Method::ALL {
+        for method in Rule::ALL {
             for point in study.curve(k, method) {
                 let mut row = values.clone();
                 row.extend([method.name().to_owned(), cell(point.threshold)]);

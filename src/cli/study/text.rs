@@ -4,8 +4,8 @@ use centrode_core::scenario::Xi1Rule;
 use centrode_core::study::Job;
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
-use centrode_core::study::tuning::tally::Detection;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::tally::Found;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
 use std::io::{self, Write};
 
@@ -22,7 +22,7 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     writeln!(out, "intervals   95 % (Wilson; of the median, from its ranks)\n")?;
     if let [_] = study.cells() {
         writeln!(out, "{}", head("method      threshold", NARROW))?;
-        for method in Method::ALL {
+        for method in Rule::ALL {
             let lead = match study.own(0, method) {
                 Some(level) => format!("{:<11} {}", name(method), threshold(study, 0, method, level)),
                 None => format!("{:<11} off", name(method)),
@@ -62,20 +62,20 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     }
 }
 
-fn name(method: Method) -> &'static str {
+fn name(method: Rule) -> &'static str {
     match method {
-        Method::Fcd => "centrode",
-        Method::Jfd => "forces",
-        Method::Or => "either",
-        Method::And => "both",
+        Rule::Fcd => "centrode",
+        Rule::Jfd => "forces",
+        Rule::Or => "either",
+        Rule::And => "both",
     }
 }
 
-fn threshold(study: &Study, cell: usize, method: Method, level: usize) -> String {
+fn threshold(study: &Study, cell: usize, method: Rule, level: usize) -> String {
     let value = study.levels(cell, method)[level];
     match (method, study.cells()[cell].scenario.detection.xi1_rule) {
-        (Method::Jfd, Xi1Rule::Constant) => format!("{:.1} mN·m", value * 1e3),
-        (Method::Jfd, Xi1Rule::Bound) => format!("{value:.2} ε_c"),
+        (Rule::Jfd, Xi1Rule::Constant) => format!("{:.1} mN·m", value * 1e3),
+        (Rule::Jfd, Xi1Rule::Bound) => format!("{value:.2} ε_c"),
         _ => format!("{:.2} mm", value * 1e3),
     }
 }
@@ -89,7 +89,7 @@ fn head(lead: &str, wide: usize) -> String {
 
 fn row(lead: &str, wide: usize, point: Option<&Point>) -> String {
     let Some(point) = point else { return lead.to_owned() };
-    let Detection { detected, mean, mean_error, median, ninety, .. } = match point.detection {
+    let Found { detected, mean, mean_error, median, ninety, .. } = match point.detection {
         Some(seen) => seen,
         None => {
             let alarms = share(&point.false_alarms.rate);

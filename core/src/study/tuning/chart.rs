@@ -4,7 +4,7 @@
 //! about equally wide everywhere.
 
 use super::recommend::{Verdict, Wish};
-use super::watch::Method;
+use super::watch::Rule;
 use super::{Point, Study};
 use crate::chart::notation::plain;
 use crate::chart::ticks::Steps;
@@ -34,23 +34,23 @@ pub struct Curve<'a> {
 
 /// What a method means in a chart, and whether its line is dashed.
 #[must_use]
-pub fn look(method: Method) -> (Role, bool) {
+pub fn look(method: Rule) -> (Role, bool) {
     match method {
-        Method::Fcd => (Role::Sensor, false),
-        Method::Jfd => (Role::Force, false),
-        Method::Or => (Role::Bound, false),
-        Method::And => (Role::Aside, true),
+        Rule::Fcd => (Role::Sensor, false),
+        Rule::Jfd => (Role::Force, false),
+        Rule::Or => (Role::Bound, false),
+        Rule::And => (Role::Aside, true),
     }
 }
 
 /// How a method is called.
 #[must_use]
-pub fn name(method: Method) -> &'static str {
+pub fn name(method: Rule) -> &'static str {
     match method {
-        Method::Fcd => "Centrode",
-        Method::Jfd => "Forces",
-        Method::Or => "Either",
-        Method::And => "Both",
+        Rule::Fcd => "Centrode",
+        Rule::Jfd => "Forces",
+        Rule::Or => "Either",
+        Rule::And => "Both",
     }
 }
 
@@ -139,8 +139,8 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
     let own = |method| study.own(cell, method).map(|level| study.point(cell, method, level));
     let advised = if let Verdict::Take { point, .. } = verdict { Some(&**point) } else { None };
 
-    let points = Method::ALL.map(|method| study.curve(cell, method));
-    let curves = Method::ALL.iter().zip(&points).map(|(&method, points)| {
+    let points = Rule::ALL.map(|method| study.curve(cell, method));
+    let curves = Rule::ALL.iter().zip(&points).map(|(&method, points)| {
         let (role, dashed) = look(method);
         Curve { name: name(method).into(), role, dashed, faint: false, points }
     });
@@ -148,7 +148,7 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
     if !set.is_empty() {
         first.title = format!("{}, {set}", first.title);
     }
-    for method in Method::ALL {
+    for method in Rule::ALL {
         mark(&mut first, look(method).0, Style::Dots, own(method).as_ref().and_then(found));
     }
     mark(&mut first, Role::Choice, Style::Rings, advised.and_then(found));

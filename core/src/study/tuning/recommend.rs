@@ -1,7 +1,7 @@
 //! Which threshold to take, in which cell.
 
 use super::rate::runs_to_show;
-use super::watch::Method;
+use super::watch::Rule;
 use super::{Point, Study};
 use serde::Serialize;
 
@@ -9,7 +9,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Wish {
     /// How alarms are raised.
-    pub method: Method,
+    pub method: Rule,
     /// The most runs without contact that may alarm, as a share above 0 and below 1.
     pub false_alarm_rate: f64,
 }

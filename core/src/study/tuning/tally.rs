@@ -1,7 +1,7 @@
 //! What repeats of one scenario came to: whole numbers, so that the order in which they are added changes nothing.
 
 use super::rate::{Rate, wilson};
-use super::watch::{Firsts, Method, NEVER};
+use super::watch::{Firsts, NEVER, Rule};
 use libm::{ceil, sqrt};
 use serde::{Deserialize, Serialize};
 
@@ -40,14 +40,15 @@ pub struct Count {
 pub struct Tally {
     /// Runs counted.
     pub runs: u64,
-    /// By method and level; empty before the first run, so that what is not begun takes no memory.
-    pub counts: [Vec<Count>; 4],
+    /// By rule and level; empty before the first run, so that what is not begun takes no memory.
+    pub counts: Vec<Vec<Count>>,
 }
 
 impl Tally {
     /// Counts one run in.
     pub fn add(&mut self, firsts: &Firsts, clock: &Clock) {
         self.runs += 1;
+        self.counts.resize_with(firsts.len(), Vec::new);
         for (counts, firsts) in self.counts.iter_mut().zip(firsts) {
             counts.resize_with(firsts.len(), Count::default);
             for (count, &first) in counts.iter_mut().zip(firsts) {
@@ -58,10 +59,9 @@ impl Tally {
 
     /// What the runs say about one threshold.
     #[must_use]
-    pub fn count(&self, method: Method, level: usize) -> &Count {
+    pub fn count(&self, rule: Rule, level: usize) -> &Count {
         static NONE: Count = Count { early: 0, early_samples: 0, late: 0, found: Vec::new() };
-        let counts = &self.counts[method as usize];
-        if counts.is_empty() { &NONE } else { &counts[level] }
+        self.counts.get(rule as usize).map_or(&NONE, |counts| &counts[level])
     }
 }
 
@@ -111,7 +111,7 @@ pub struct FalseAlarms {
 
 /// What a threshold does about contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Detection {
+pub struct Found {
     /// Alarms before contact, of all runs.
     pub early: Rate,
     /// Contacts found in time, of those met without an alarm before.
@@ -136,8 +136,8 @@ pub struct Detection {
 
 /// False alarms, from the runs without contact.
 #[must_use]
-pub fn false_alarms(tally: &Tally, clock: &Clock, method: Method, level: usize) -> FalseAlarms {
-    let count = tally.count(method, level);
+pub fn false_alarms(tally: &Tally, clock: &Clock, rule: Rule, level: usize) -> FalseAlarms {
+    let count = tally.count(rule, level);
     let silent = tally.runs - count.early;
     let whole = u64::from(clock.samples.saturating_sub(clock.armed));
     let watched = (count.early_samples + silent * whole) as f64 / clock.rate;
@@ -153,8 +153,8 @@ pub fn false_alarms(tally: &Tally, clock: &Clock, method: Method, level: usize) 
 
 /// Contacts found and missed, from the runs with contact.
 #[must_use]
-pub fn detection(tally: &Tally, clock: &Clock, method: Method, level: usize) -> Detection {
-    let count = tally.count(method, level);
+pub fn detection(tally: &Tally, clock: &Clock, rule: Rule, level: usize) -> Found {
+    let count = tally.count(rule, level);
     let (met, found) = (tally.runs - count.early, count.found());
     let seconds = |samples: f64| samples / clock.rate;
     let sum: u64 = count.found.iter().map(|&(delay, runs)| u64::from(delay) * u64::from(runs)).sum();
@@ -164,7 +164,7 @@ pub fn detection(tally: &Tally, clock: &Clock, method: Method, level: usize) -> 
     let n = found as f64;
     let [low, high] = if met > 0 { wilson(0.5, met as f64) } else { [0.5; 2] };
     let quantile = |share: f64| seconds(quantile(&count.found, met, share));
-    Detection {
+    Found {
         early: Rate::new(count.early, tally.runs),
         detected: Rate::new(found, met),
         missed: Rate::new(met - found, met),
@@ -203,7 +203,7 @@ mod tests {
 
     fn tally(firsts: &[u32]) -> Tally {
         let mut tally = Tally::default();
-        firsts.iter().for_each(|&first| tally.add(&[vec![first], vec![NEVER], vec![first], vec![NEVER]], &CLOCK));
+        firsts.iter().for_each(|&first| tally.add(&vec![vec![first], vec![NEVER], vec![first], vec![NEVER]], &CLOCK));
         tally
     }
 
@@ -211,7 +211,7 @@ mod tests {
     fn an_alarm_is_early_found_late_or_missing() {
         // Early, at contact, in time (twice), just in time, late, never (twice).
         let tally = tally(&[5500, 6000, 6100, 6100, 6500, 6501, NEVER, NEVER]);
-        let seen = detection(&tally, &CLOCK, Method::Fcd, 0);
+        let seen = detection(&tally, &CLOCK, Rule::Fcd, 0);
         assert_eq!((seen.early.count, seen.early.of), (1, 8));
         assert_eq!((seen.detected.count, seen.detected.of, seen.missed.count, seen.late), (4, 7, 3, 1));
         assert!((seen.mean - 0.175).abs() < 1e-15);
@@ -219,7 +219,7 @@ mod tests {
         assert!((seen.mean_error - sqrt(0.049_166_666_666_666_67 / 4.0)).abs() < 1e-12, "{}", seen.mean_error);
         assert_eq!(seen.median, 0.5);
         assert!(seen.ninety.is_nan() && seen.median_high.is_nan());
-        assert_eq!(detection(&tally, &CLOCK, Method::Jfd, 0).detected.count, 0);
+        assert_eq!(detection(&tally, &CLOCK, Rule::Jfd, 0).detected.count, 0);
     }
 
     #[test]
@@ -227,15 +227,15 @@ mod tests {
         let clock = Clock { contact: None, ..CLOCK };
         let mut tally = Tally::default();
         for first in [6000, 7001, NEVER, NEVER] {
-            tally.add(&[vec![first], vec![NEVER], vec![first], vec![NEVER]], &clock);
+            tally.add(&vec![vec![first], vec![NEVER], vec![first], vec![NEVER]], &clock);
         }
-        let alarms = false_alarms(&tally, &clock, Method::Fcd, 0);
+        let alarms = false_alarms(&tally, &clock, Rule::Fcd, 0);
         assert_eq!((alarms.rate.count, alarms.rate.of), (2, 4));
         let watched = 1.0 + 2.001 + 2.0 * 5.001;
         assert!((alarms.watched - watched).abs() < 1e-12);
         assert!((alarms.mean_time - watched / 2.0).abs() < 1e-12);
         assert!((alarms.mean_time_error - watched / 2.0 / sqrt(2.0)).abs() < 1e-12);
-        assert!(false_alarms(&tally, &clock, Method::Jfd, 0).mean_time.is_nan());
+        assert!(false_alarms(&tally, &clock, Rule::Jfd, 0).mean_time.is_nan());
     }
 
     #[test]

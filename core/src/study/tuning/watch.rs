@@ -9,10 +9,10 @@ use crate::sensors::cells::SimulatedCells;
 use crate::study::shared::Shared;
 use serde::{Deserialize, Serialize};
 
-/// How an alarm is raised.
+/// How an alarm is raised: by one detector, or by a combination of several.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Method {
+pub enum Rule {
     /// By the fixed centrode deviation above ξ2.
     Fcd,
     /// By the joint force deviation above ξ1.
@@ -23,7 +23,7 @@ pub enum Method {
     And,
 }
 
-impl Method {
+impl Rule {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Fcd, Self::Jfd, Self::Or, Self::And];
 
@@ -38,29 +38,43 @@ impl Method {
         }
     }
 
-    /// The levels of its threshold.
+    /// The detectors that it looks at.
+    #[must_use]
+    pub fn detectors(self) -> &'static [Detector] {
+        match self {
+            Self::Fcd => &[Detector::Fcd],
+            Self::Jfd => &[Detector::Jfd],
+            Self::Or | Self::And => &[Detector::Fcd, Detector::Jfd],
+        }
+    }
+
+    /// The levels of its threshold: those of the first of its detectors.
     #[must_use]
     pub fn levels(self, levels: &Levels) -> &[f64] {
-        if self == Self::Jfd { &levels.xi1 } else { &levels.xi2 }
+        match self.detectors().first() {
+            Some(Detector::Jfd) => &levels.xi1,
+            _ => &levels.xi2,
+        }
     }
 }
 
 /// No alarm.
 pub const NEVER: u32 = u32::MAX;
 
-/// By method and level, the sample of the first alarm, or [`NEVER`].
-pub type Firsts = [Vec<u32>; 4];
+/// By rule and level, the sample of the first alarm, or [`NEVER`].
+pub type Firsts = Vec<Vec<u32>>;
 
 /// What has been crossed so far in one run.
 ///
 /// A threshold has raised its alarm once the value was above it, so the thresholds still silent are those above the
-/// largest value so far: they are crossed in rising order, and one mark for each method suffices.
+/// largest value so far: they are crossed in rising order, and one mark for each rule suffices.
 #[derive(Debug, Clone)]
 struct Watch<'a> {
     levels: &'a Levels,
     thresholds: &'a Thresholds,
     firsts: Firsts,
-    crossed: [usize; 4],
+    /// By rule, how many of its levels have been crossed.
+    crossed: Vec<usize>,
     /// The centrode deviation last looked at: the alarm keeps its state while nothing is judged.
     deviation: f64,
     forces_above: bool,
@@ -71,8 +85,8 @@ impl<'a> Watch<'a> {
         Self {
             levels,
             thresholds,
-            firsts: Method::ALL.map(|method| vec![NEVER; method.levels(levels).len()]),
-            crossed: [0; 4],
+            firsts: Rule::ALL.iter().map(|rule| vec![NEVER; rule.levels(levels).len()]).collect(),
+            crossed: vec![0; Rule::ALL.len()],
             deviation: f64::NEG_INFINITY,
             forces_above: false,
         }
@@ -85,23 +99,23 @@ impl<'a> Watch<'a> {
                 Xi1Rule::Constant => 1.0,
                 Xi1Rule::Bound => shape_bound,
             };
-            self.raise(Method::Jfd, sample, |level| residual > level * unit);
+            self.raise(Rule::Jfd, sample, |level| residual > level * unit);
             self.forces_above = self.thresholds.xi1_at(shape_bound).is_some_and(|xi1| residual > xi1);
         }
         if let Some(deviation) = deviation.counted() {
             self.deviation = deviation;
-            self.raise(Method::Fcd, sample, |level| deviation > level);
-            self.raise(Method::Or, sample, |level| deviation > level);
+            self.raise(Rule::Fcd, sample, |level| deviation > level);
+            self.raise(Rule::Or, sample, |level| deviation > level);
         }
         if self.forces_above {
-            self.raise(Method::Or, sample, |_| true);
+            self.raise(Rule::Or, sample, |_| true);
             let deviation = self.deviation;
-            self.raise(Method::And, sample, |level| deviation > level);
+            self.raise(Rule::And, sample, |level| deviation > level);
         }
     }
 
-    fn raise(&mut self, method: Method, sample: u32, above: impl Fn(f64) -> bool) {
-        let (levels, which) = (method.levels(self.levels), method as usize);
+    fn raise(&mut self, rule: Rule, sample: u32, above: impl Fn(f64) -> bool) {
+        let (levels, which) = (rule.levels(self.levels), rule as usize);
         let crossed = &mut self.crossed[which];
         while *crossed < levels.len() && above(levels[*crossed]) {
             self.firsts[which][*crossed] = sample;
@@ -110,7 +124,7 @@ impl<'a> Watch<'a> {
     }
 }
 
-/// Runs a plan and says when each level of each method was first crossed. `shared` is what the plan's repeats have in common.
+/// Runs a plan and says when each level of each rule was first crossed. `shared` is what the plan's repeats have in common.
 #[must_use]
 pub fn first_alarms(plan: &Plan, levels: &Levels, shared: &Shared) -> Firsts {
     let scenario = plan.scenario();

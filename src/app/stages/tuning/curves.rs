@@ -11,7 +11,7 @@ use centrode_core::chart::{Chart, Panel, Role, Style};
 use centrode_core::study::tuning::Point;
 use centrode_core::study::tuning::chart::{self, Curve, look};
 use centrode_core::study::tuning::recommend::Verdict;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::watch::Rule;
 use egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo};
 
 /// Where a threshold lies; none where its values are not defined.
@@ -30,8 +30,8 @@ pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
 /// All methods; the chosen one lies on top of the others, which stand back.
 fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
     let chosen = view.tuning.method;
-    let others = Method::ALL.into_iter().filter(|method| *method != chosen);
-    let curve = |method: Method| {
+    let others = Rule::ALL.into_iter().filter(|method| *method != chosen);
+    let curve = |method: Rule| {
         let (role, dashed) = look(method);
         let points = &view.derived.curves[method as usize];
         Curve { name: chart::name(method).into(), role, dashed, faint: method != chosen, points }

@@ -6,8 +6,8 @@ use crate::app::stages::tuning::{Named, View};
 use centrode_core::scenario::Place;
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::recommend::Verdict;
-use centrode_core::study::tuning::tally::Detection;
-use centrode_core::study::tuning::watch::Method;
+use centrode_core::study::tuning::tally::Found;
+use centrode_core::study::tuning::watch::Rule;
 
 /// A share in %, with as many digits as matter.
 pub fn percent(share: f64) -> String {
@@ -63,7 +63,7 @@ pub fn now(view: &View<'_>) -> String {
     text
 }
 
-fn found(seen: &Detection, place: &str) -> String {
+fn found(seen: &Found, place: &str) -> String {
     let Rate { count, of, .. } = seen.detected;
     if seen.early.of == 0 {
         return String::new();
@@ -118,7 +118,7 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
         Verdict::Take { cell, level, point } => {
             let length = view.study.cells()[*cell].scenario.filter.length;
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
-            let filter = if view.tuning.method == Method::Jfd { String::new() } else { format!(", N = {length}") };
+            let filter = if view.tuning.method == Rule::Jfd { String::new() } else { format!(", N = {length}") };
             let text = format!(
                 "Soonest with at most {wish} % false alarms: {}{filter} detects it after {} s, and {} of {} runs without contact gave a false alarm ({}).",
                 setting(&named, point.threshold),
