@@ -64,6 +64,30 @@ fn study(c: &mut Criterion) {
     });
 }
 
+/// What a slider of the page costs: a threshold, the filter, anything else.
+fn update(c: &mut Criterion) {
+    use centrode_core::scenario::Threshold;
+    let bench = find("bench").and_then(|preset| preset.scenario()).expect("bench");
+    let mut group = c.benchmark_group("update");
+    type Change = fn(&mut Scenario, bool);
+    let changes: [(&str, Change); 3] = [
+        ("a threshold", |s, other| s.detection.xi2 = Threshold::On(if other { 0.006 } else { 0.007 })),
+        ("the filter", |s, other| s.filter.length = if other { 400 } else { 500 }),
+        ("the seed", |s, other| s.seed = u64::from(other)),
+    ];
+    for (name, change) in changes {
+        let plans = [false, true].map(|other| {
+            let mut scenario = bench.clone();
+            change(&mut scenario, other);
+            Plan::new(&scenario).expect("valid")
+        });
+        let mut run = simulate(&bench).expect("valid");
+        let mut next = plans.iter().cycle();
+        group.bench_function(name, |b| b.iter(|| next.next().map(|plan| run.update(plan.clone()))));
+    }
+    group.finish();
+}
+
 /// Thresholds over repeats, as the command makes them: 500 with contact and 500 without.
 fn tuning(c: &mut Criterion) {
     let mut group = c.benchmark_group("tuning");
@@ -87,5 +111,5 @@ fn tuning(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, experiment, study, tuning);
+criterion_group!(benches, model, experiment, update, study, tuning);
 criterion_main!(benches);

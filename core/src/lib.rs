@@ -16,7 +16,7 @@
 //! | load cell error | 13–15 | [`sensors::cells`] |
 //! | detectability bound ε_c | 16 | [`model::Segment::common_error_bound`], [`model::Segment::independent_error_bound`] |
 //! | fixed centrode | 17, 18 | [`model::centrode::centrode`], [`model::Jacobian::centrode`] |
-//! | detection by fixed centrode deviation | 19 | [`detect::detector::Detector`] |
+//! | detection by fixed centrode deviation | 19 | [`detect::Method`] |
 //! | constrained segment and its centrode | 20–23 | [`model::Constrained`] |
 //! | location of the contact | 24 | [`model::locate`] |
 //! | Figures 3, 4, 6, 7, 8 | | [`study::figure`] |

@@ -1,7 +1,7 @@
 //! `centrode run`: simulate one scenario, sample by sample.
 //!
-//! A long run needs no more memory than a short one, except that JSON lists every threshold crossing: 40 bytes each, and at
-//! most [`MAX_CROSSINGS`] of them.
+//! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
+//! at most [`MAX_CROSSINGS`] of them.
 
 use super::ScenarioArgs;
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
@@ -103,10 +103,9 @@ impl RunArgs {
                 return Err(Failure::Input(line));
             }
             let Sample { time, judgement, .. } = &sample;
-            if *time >= detection.armed_from {
-                raise(&mut peak.residual, *time, judgement.residual);
-                if judgement.speed > detection.min_speed {
-                    raise(&mut peak.deviation, *time, judgement.deviation);
+            for (method, peak) in [(Method::Fcd, &mut peak.deviation), (Method::Jfd, &mut peak.residual)] {
+                if let Some(value) = method.statistic(judgement, *time, detection).counted() {
+                    raise(peak, *time, value);
                 }
             }
             if let Some(csv) = &mut csv {

@@ -211,3 +211,17 @@ fn a_closed_pipe_ends_quietly() {
         assert!(status.success() && message.is_empty(), "{args:?}: {status}: {message}");
     }
 }
+
+#[test]
+fn run_lists_the_events_that_a_reader_wants() {
+    let report = json(&["run", "--preset", "bench", "--json"]);
+    let events = report["events"].as_array().expect("events");
+    let of = |detector: &str| events.iter().filter(|event| event["detector"] == detector).collect::<Vec<_>>();
+    let ([centrode], [forces]) = (&of("fcd")[..], &of("jfd")[..]) else { panic!("{events:?}") };
+    let keys: Vec<&String> = centrode.as_object().expect("an object").keys().collect();
+    assert_eq!(keys, ["cleared", "detector", "raised", "theta_l", "threshold", "value"]);
+    assert!((centrode["raised"].as_f64().expect("s") - 6.26).abs() < 1e-9 && centrode["threshold"] == 0.007);
+    assert_eq!(centrode["raised"], report["detection"]["time"]);
+    assert!(forces["raised"].as_f64() < centrode["raised"].as_f64() && forces["cleared"].is_null());
+    assert!(report["crossings"].as_array().is_some_and(|crossings| crossings.len() > 10));
+}

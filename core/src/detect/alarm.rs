@@ -39,9 +39,10 @@ pub struct Event {
     pub threshold: f64,
     /// θL commanded then, rad.
     pub theta_l: f64,
-    /// Where Eq. 24 places the contact then; none for a detector that does not say.
+    /// Where Eq. 24 places the contact: at the first crossing of the event at which it has an answer; none for a detector that does
+    /// not say.
     #[serde(skip)]
-    pub location: Option<Location>,
+    pub detection: Option<Detection>,
 }
 
 /// The first alarm of the centrode, with the place that Eq. 24 gives it.
@@ -61,10 +62,7 @@ impl Detection {
     /// The first of some events that places its contact.
     #[must_use]
     pub fn first(events: &[Event]) -> Option<Self> {
-        events.iter().find_map(|event| {
-            let Location { arc_length, distance } = event.location?;
-            Some(Self { time: event.raised, theta_l: event.theta_l, location: arc_length, distance })
-        })
+        events.iter().find_map(|event| event.detection)
     }
 }
 
@@ -109,24 +107,34 @@ impl Alarms {
             let method = lamp.detector;
             let Some(threshold) = method.threshold(judgement, thresholds) else { continue };
             let statistic = method.statistic(judgement, time, thresholds);
-            let Some(above) = statistic.above(threshold) else { continue };
+            let Some(above) = statistic.above(threshold) else {
+                // Of a value that is not known nobody can say that it has stayed low.
+                lamp.low_since = None;
+                continue;
+            };
             let (theta_l, value) = (configuration.theta_l(), statistic.value);
             let was = std::mem::replace(&mut lamp.above, above);
-            if above && !was {
+            let crossed = above && !was;
+            if crossed {
                 crossings.push(Crossing { method, time, theta_l, value, threshold });
             }
+            let detect = || {
+                let sensor = (method == Method::Fcd).then_some(&judgement.sensor_centrode)?;
+                let Location { arc_length, distance } =
+                    locate(settings.segment.length, *configuration, Rate::BENDING, sensor)?;
+                Some(Detection { time, theta_l, location: arc_length, distance })
+            };
             match lamp.standing {
                 None if above => {
-                    let location = (method == Method::Fcd)
-                        .then(|| {
-                            locate(settings.segment.length, *configuration, Rate::BENDING, &judgement.sensor_centrode)
-                        })
-                        .flatten();
                     (lamp.standing, lamp.low_since) = (Some(events.len()), None);
                     let (detector, raised, cleared) = (method, time, None);
-                    events.push(Event { detector, raised, cleared, value, threshold, theta_l, location });
+                    let detection = detect();
+                    events.push(Event { detector, raised, cleared, value, threshold, theta_l, detection });
                 }
                 Some(place) => {
+                    if crossed && events[place].detection.is_none() {
+                        events[place].detection = detect();
+                    }
                     let low = statistic.above(thresholds.release * threshold) == Some(false);
                     lamp.low_since = low.then(|| lamp.low_since.unwrap_or(time));
                     if lamp.low_since.is_some_and(|since| time - since >= thresholds.hold) {
@@ -160,5 +168,56 @@ impl Alarms {
     #[must_use]
     pub fn finish(self) -> (Vec<Crossing>, Vec<Event>) {
         (self.crossings, self.events)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Vec3;
+    use crate::scenario::{Plan, Scenario, Threshold};
+
+    /// Events of a deviation (m) every 0.01 s from 0 s on, with ξ2 = 10 mm, release at 8 mm after 0.1 s.
+    fn events(deviations: &[f64]) -> Vec<Event> {
+        let mut scenario = Scenario::default();
+        scenario.detection.armed_from = 0.0;
+        scenario.detection.xi1 = Threshold::OFF;
+        scenario.detection.xi2 = Threshold::On(0.010);
+        (scenario.detection.release, scenario.detection.hold) = (0.8, 0.095);
+        let settings = Settings::of(&Plan::new(&scenario).expect("valid"));
+        let mut alarms = Alarms::new(&settings);
+        for (k, &deviation) in deviations.iter().enumerate() {
+            let judgement = Judgement {
+                model_centrode: Vec3::zeros(),
+                sensor_centrode: Vec3::new(0.001, 0.0, 0.01),
+                deviation,
+                speed: 1.0,
+                residual: 0.0,
+                common_bound: 0.0,
+                independent_bound: 0.0,
+                shape_bound: 0.0,
+            };
+            alarms.look(k as f64 * 0.01, &Configuration::new(0.5, 0.0), &judgement);
+        }
+        alarms.finish().1
+    }
+
+    #[test]
+    fn an_event_ends_once_its_value_has_stayed_low() {
+        let part = |value: f64, count: usize| vec![value; count];
+        let times = |parts: &[Vec<f64>]| -> Vec<(f64, Option<f64>)> {
+            let round = |time: f64| (time * 100.0).round() / 100.0;
+            events(&parts.concat()).iter().map(|event| (round(event.raised), event.cleared.map(round))).collect()
+        };
+        // Up, between release and threshold, up again: one event that stands at the end.
+        let noise = [part(0.0, 5), part(0.012, 3), part(0.009, 30), part(0.011, 2)];
+        assert_eq!(times(&noise), [(0.05, None)]);
+        // Low too briefly, then long enough, then another.
+        let two = [part(0.012, 2), part(0.007, 9), part(0.009, 1), part(0.008, 12), part(0.012, 1)];
+        assert_eq!(times(&two), [(0.0, Some(0.22)), (0.24, None)]);
+        // What is not defined in between is not low.
+        let gap = [part(0.012, 1), part(0.0, 1), part(f64::NAN, 50), part(0.0, 1), part(f64::NAN, 50)];
+        assert_eq!(times(&gap), [(0.0, None)]);
+        assert!(events(&[0.0, 0.012])[0].detection.is_some_and(|detection| detection.time == 0.01));
     }
 }

@@ -97,6 +97,10 @@ fn read(scenario: &mut Scenario, path: &str, value: &toml::Value) -> Result<(), 
 fn read_group(scenario: &mut Scenario, group: &str, table: &Table) -> Result<(), ScenarioError> {
     for (name, value) in table {
         let path = if group.is_empty() { name.clone() } else { format!("{group}.{name}") };
+        // A quoted name is one name, whatever it holds.
+        if name.contains('.') {
+            return Err(unknown(&path));
+        }
         read(scenario, &path, value)?;
         if let Some((key, other)) = keys::find(&path).and_then(|key| Some((key, key.other()?)))
             && table.contains_key(other.name())

@@ -65,11 +65,13 @@ pub struct Kept {
     latest: Mutex<VecDeque<Slot>>,
 }
 
-/// A plan's own, being made or made.
-type Slot = (Scenario, Arc<OnceLock<Shared>>);
+/// A plan's own, its samples, and what is shared, being made or made.
+type Slot = (Scenario, usize, Arc<OnceLock<Shared>>);
 
 /// How many are kept.
-const KEPT: usize = 16;
+pub const KEPT: usize = 16;
+/// How many samples they may have together, where there is more than one: some 400 bytes each.
+const MOST: usize = 1_000_000;
 
 impl Kept {
     /// What the repeats of a plan share, made now unless it is there. Whoever asks for it meanwhile waits for it.
@@ -79,17 +81,21 @@ impl Kept {
         let slot = {
             // A thread that panicked has left the list as it was, or one longer.
             let mut latest = self.latest.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            match latest.iter().position(|(known, _)| *known == key) {
-                Some(place) => Arc::clone(&latest[place].1),
+            match latest.iter().position(|(known, ..)| *known == key) {
+                Some(place) => {
+                    // The one asked for longest ago goes first.
+                    let known = latest.remove(place);
+                    latest.extend(known);
+                }
                 None => {
-                    if latest.len() == KEPT {
+                    latest.push_back((key, plan.samples(), Arc::default()));
+                    let samples = |slots: &VecDeque<Slot>| slots.iter().map(|(_, samples, _)| samples).sum::<usize>();
+                    while latest.len() > 1 && (latest.len() > KEPT || samples(&latest) > MOST) {
                         latest.pop_front();
                     }
-                    let slot = Arc::default();
-                    latest.push_back((key, Arc::clone(&slot)));
-                    slot
                 }
             }
+            latest.back().map(|(.., slot)| Arc::clone(slot)).unwrap_or_default()
         };
         slot.get_or_init(|| Shared::new(plan));
         Held(slot)

@@ -16,14 +16,14 @@ pub mod tally;
 pub mod watch;
 
 use super::seed::repeat_seed;
-use super::shared::Kept;
+use super::shared::{KEPT, Kept};
 use super::truth::contact_sample;
 use super::{Job, Progress};
 use crate::run::kept;
 use crate::scenario::keys::allowed::NOT_NEGATIVE;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::text::Draft;
-use crate::scenario::{Place, Threshold};
+use crate::scenario::{Place, Threshold, Thresholds};
 use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use levels::Levels;
 use serde::{Deserialize, Serialize};
@@ -35,6 +35,9 @@ pub const MAX_REPEATS: usize = 10_000_000;
 
 /// The most thresholds that one study counts, over all its scenarios and methods: up to 1 GB of counts.
 pub const MAX_COUNTS: usize = 20_000_000;
+
+/// Repeats that a batch makes in its turn where there are many batches.
+const TURN: u64 = 64;
 
 /// What is to be studied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -143,6 +146,9 @@ impl Study {
             levels::with(&mut levels.xi1, xi1_setting(cell));
         }
         scenario.detection.xi2 = Threshold::OFF;
+        // First alarms are counted: what ends an event does not matter.
+        let Thresholds { release, hold, .. } = Thresholds::default();
+        (scenario.detection.release, scenario.detection.hold) = (release, hold);
         if scenario.contact.place == Place::Nowhere {
             scenario.contact = crate::scenario::Contact { place: Place::Nowhere, ..Default::default() };
         }
@@ -193,8 +199,13 @@ impl Study {
     /// whoever stops early has equally many repeats of each.
     #[must_use]
     pub fn piece(&self, piece: u64) -> (usize, u64) {
-        let batches = self.batches.len() as u64;
-        ((piece % batches) as usize, piece / batches)
+        let (batches, repeats) = (self.batches.len() as u64, self.spec.repeats as u64);
+        // Where not all keep what their repeats share, each takes several in its turn.
+        let turn = if self.batches.len() > KEPT { TURN } else { 1 };
+        let round = piece / (turn * batches);
+        let size = turn.min(repeats.saturating_sub(round * turn)).max(1);
+        let within = piece - round * turn * batches;
+        ((within / size % batches) as usize, round * turn + within % size)
     }
 
     /// Makes one repeat of one batch; changes nothing, so that many can be made at once.
@@ -368,6 +379,25 @@ impl Job for Study {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pieces_are_every_repeat_of_every_batch_once_and_many_batches_take_long_turns() {
+        for (cells, repeats) in [(2, 3), (20, 150), (20, 64), (20, 1)] {
+            let study = Study::new(Spec { repeats, ..spec(cells) }).expect("possible");
+            let of = study.progress().of;
+            let pieces: Vec<(usize, u64)> = (0..of).map(|piece| study.piece(piece)).collect();
+            let turns = 1 + pieces.windows(2).filter(|pair| pair[0].0 != pair[1].0).count();
+            assert!(
+                study.batches().len() <= KEPT || turns <= of as usize / repeats.min(22),
+                "{cells} {repeats}: {turns}"
+            );
+            let mut all = pieces;
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len() as u64, of);
+            assert!(all.iter().all(|&(batch, repeat)| batch < study.batches().len() && repeat < repeats as u64));
+        }
+    }
 
     fn spec(cells: u32) -> Spec {
         let cells = (1..=cells).map(|seed| vec![format!("seed={seed}")]).collect();

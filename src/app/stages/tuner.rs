@@ -1,6 +1,6 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
-use centrode_core::scenario::{Place, Scenario, Threshold};
+use centrode_core::scenario::{Place, Scenario, Threshold, Thresholds};
 use centrode_core::study::tuning::remote::{Answer, Request};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study, xi1_setting};
@@ -94,7 +94,9 @@ impl Tuner {
             self.version += 1;
         }
         let mut scenario = scenario.clone();
-        scenario.detection.xi2 = Threshold::OFF;
+        // A study counts first alarms: what ends an event does not matter to it.
+        let Thresholds { release, hold, .. } = Thresholds::default();
+        scenario.detection = Thresholds { xi2: Threshold::OFF, release, hold, ..scenario.detection };
         if self.inputs.as_ref().is_some_and(|(was, count)| *was == scenario && *count == repeats) {
             return;
         }
@@ -125,8 +127,9 @@ impl Tuner {
         self.rest();
     }
 
-    /// Ends what the helper does.
+    /// Ends what the helper does. What it may still answer belongs to a request of the past.
     fn rest(&mut self) {
+        self.request += 1;
         if std::mem::take(&mut self.asked)
             && let Some(helper) = &mut self.helper
         {

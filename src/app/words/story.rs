@@ -1,7 +1,7 @@
 //! What a run came to, in words and figures.
 
 use crate::app::charts::notation::number;
-use centrode_core::detect::{Crossing, Method};
+use centrode_core::detect::{Event, Method};
 use centrode_core::run::Run;
 use centrode_core::scenario::Place;
 
@@ -129,8 +129,8 @@ fn met(run: &Run, contact: f64) -> String {
 }
 
 /// The first alarm of the joint forces.
-fn joint_alarm(run: &Run) -> Option<&Crossing> {
-    run.crossings().iter().find(|crossing| crossing.method == Method::Jfd)
+fn joint_alarm(run: &Run) -> Option<&Event> {
+    run.judged.first(Method::Jfd)
 }
 
 /// What the joint forces made of it.
@@ -143,20 +143,20 @@ fn joint_forces(run: &Run) -> String {
             "Joint forces are not defined while the beam holds the robot so near its tip.".into()
         }
         (None, _) => "Joint forces raised no alarm.".into(),
-        (Some(alarm), Some(contact)) if alarm.time >= contact => {
-            format!("Joint forces alarmed {} after the contact.", seconds(alarm.time - contact))
+        (Some(alarm), Some(contact)) if alarm.raised >= contact => {
+            format!("Joint forces alarmed {} after the contact.", seconds(alarm.raised - contact))
         }
         (Some(alarm), Some(contact)) => format!(
             "Joint forces raised a false alarm at {} s, {} before the contact.",
-            number(alarm.time, 3),
-            seconds(contact - alarm.time)
+            number(alarm.raised, 3),
+            seconds(contact - alarm.raised)
         ),
-        (Some(alarm), None) if loaded_by(run, alarm.time) => format!(
+        (Some(alarm), None) if loaded_by(run, alarm.raised) => format!(
             "Joint forces noticed the load on the tip at {} s, {} after it began.",
-            number(alarm.time, 3),
-            seconds(alarm.time - run.plan.scenario().load.start)
+            number(alarm.raised, 3),
+            seconds(alarm.raised - run.plan.scenario().load.start)
         ),
-        (Some(alarm), None) => format!("Joint forces raised a false alarm at {} s.", number(alarm.time, 3)),
+        (Some(alarm), None) => format!("Joint forces raised a false alarm at {} s.", number(alarm.raised, 3)),
     }
 }
 
@@ -212,7 +212,7 @@ pub fn figures(run: &Run) -> Vec<Figure> {
         figure("Estimate", number(estimate, 1), "mm"),
         figure("Truth", number(truth, 1), "mm"),
         figure("Error", signed(error, 1), "mm"),
-        figure("Joint force alarm", number(joint_alarm(run).map_or(f64::NAN, |alarm| alarm.time), 3), "s"),
+        figure("Joint force alarm", number(joint_alarm(run).map_or(f64::NAN, |alarm| alarm.raised), 3), "s"),
     ]
 }
 

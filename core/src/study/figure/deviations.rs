@@ -5,6 +5,7 @@ use super::plans::{REPEATS, repeats};
 use super::thin::Thinner;
 use super::words::{self, MILLI, time};
 use crate::chart::{Axis, Chart, Panel, Role, Series, Span, Style, Vertical};
+use crate::detect::Method;
 use crate::run::Simulation;
 use crate::scenario::{Plan, ScenarioError};
 
@@ -65,13 +66,13 @@ impl Content for Deviations {
         let mut curve = Thinner::new(plan.samples());
         for sample in simulation.by_ref().filter(|sample| sample.time >= from && sample.time <= to) {
             let judgement = &sample.judgement;
-            let armed = sample.time >= detection.armed_from;
-            let moving = judgement.speed > detection.min_speed;
-            if armed && moving && judgement.deviation > self.highest {
-                self.highest = judgement.deviation;
+            let statistic = Method::Fcd.statistic(judgement, sample.time, detection);
+            if let Some(counted) = statistic.counted() {
+                self.highest = self.highest.max(counted);
             }
-            // Before arming the transient is shown whole; after it, only what is judged.
-            curve.push([sample.time, if armed && !moving { f64::NAN } else { judgement.deviation }]);
+            // Before arming the transient is shown whole; after it, only what counts.
+            let hidden = sample.time >= detection.armed_from && statistic.counted().is_none();
+            curve.push([sample.time, if hidden { f64::NAN } else { judgement.deviation }]);
         }
         self.contact = self.contact.or(simulation.contact_time());
         if let Some(found) = simulation.detection() {

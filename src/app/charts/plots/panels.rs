@@ -8,7 +8,7 @@ use crate::app::charts::plots::marks::{Judged, empty};
 use crate::app::charts::plots::range::top;
 use crate::app::charts::plots::threshold::Line;
 use crate::app::command::Command;
-use centrode_core::detect::Method;
+use centrode_core::detect::{Method, Standing};
 use centrode_core::run::Sample;
 use centrode_core::scenario::{Threshold, Xi1Rule};
 use egui::{Color32, Ui};
@@ -23,12 +23,11 @@ pub fn deviation(ui: &mut Ui, view: &mut View<'_>) {
     let settings = view.run.plan.scenario().detection.clone();
     let color = view.frame.theme.sensor;
     let value = |sample: &Sample| sample.judgement.deviation * FCD.scale;
-    let least = settings.min_speed;
     judging(
         ui,
         view,
         settings.xi2,
-        |sample| sample.judgement.speed > least,
+        |sample| Method::Fcd.statistic(&sample.judgement, sample.time, &settings).standing != Standing::Silent,
         value,
         Shown {
             judged: FCD,
@@ -122,9 +121,9 @@ fn judging(
     let which = view.which;
     let otherwise = view.state.otherwise[which];
     let high = view.state.held[which].unwrap_or_else(|| {
-        let armed_from = view.run.plan.scenario().detection.armed_from;
-        let judged = view.run.samples().filter(|sample| sample.time >= armed_from && is_judged(sample));
-        let mut values: Vec<f64> = judged.map(|sample| value(&sample)).collect();
+        let (method, thresholds) = (shown.judged.method, &view.run.plan.scenario().detection);
+        let counts = |sample: &Sample| method.statistic(&sample.judgement, sample.time, thresholds).counted().is_some();
+        let mut values: Vec<f64> = view.run.samples().filter(counts).map(|sample| value(&sample)).collect();
         top(threshold.value().unwrap_or(otherwise) * shown.judged.scale, &mut values)
     });
     let values = view.frame.values([0.0, high]);
