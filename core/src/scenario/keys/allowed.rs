@@ -196,7 +196,7 @@ impl Allowed {
             Self::Kept(most, samples) => format!(
                 "at most {most} samples in a run that is kept in memory; this one has {samples} (motion.end · loop_rate)"
             ),
-            Self::Without(other) => format!("{other} is given, and only one of the two may be, not both"),
+            Self::Without(other) => format!("{other} is given as well; give one of the two, not both"),
             Self::Group(path) => format!("a table of keys: {}", keys::names(path).join(", ")),
             Self::Need(words) => words.into(),
         }
