@@ -8,6 +8,7 @@
 mod draw;
 mod figure;
 mod interrupt;
+mod link;
 mod map;
 mod model;
 mod output;
@@ -15,6 +16,7 @@ mod run;
 mod study;
 mod table2;
 
+use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::preset::{self, PRESETS};
 use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
 use centrode_core::scenario::{Scenario, ScenarioError};
@@ -48,6 +50,8 @@ enum Command {
     Map(map::MapArgs),
     /// Tune thresholds: false alarms, delay and the best filter, from repeats with and without contact.
     Study(study::StudyArgs),
+    /// Print the link to a scenario, for a page at an address.
+    Link(link::LinkArgs),
     /// List the presets.
     Presets,
     /// Print the default scenario as TOML, with a comment on every key.
@@ -55,7 +59,7 @@ enum Command {
 }
 
 /// Where a scenario comes from.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 struct ScenarioArgs {
     /// Scenario file (TOML); without it, the default scenario.
     #[arg(value_name = "SCENARIO.toml", conflicts_with = "preset")]
@@ -63,6 +67,9 @@ struct ScenarioArgs {
     /// Start from a preset instead of a file (see `centrode presets`).
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
+    /// Start from the link of a page: its address, or what stands behind the # in it. A link that cannot be read whole is refused.
+    #[arg(long, value_name = "URL", conflicts_with_all = ["file", "preset"])]
+    link: Option<String>,
     /// Override one key, as in contact.disk=3; may be repeated.
     #[arg(long = "set", value_name = "KEY=VALUE")]
     sets: Vec<String>,
@@ -81,9 +88,27 @@ impl ScenarioArgs {
         self.resolved(Some(preset))
     }
 
+    /// The link that is named, whole.
+    fn link(&self) -> Result<Option<Link>, Failure> {
+        let Some(text) = &self.link else { return Ok(None) };
+        let (link, broken) = Link::read(text);
+        if broken.is_empty() {
+            return Ok(Some(link));
+        }
+        let told: Vec<_> = broken.iter().map(|broken| broken.refusal()).collect();
+        Err(Failure::Input(format!("--link: {}", told.join("; "))))
+    }
+
+    /// What the named link says of the page; none without a link.
+    fn page(&self) -> Result<Option<Page>, Failure> {
+        Ok(self.link()?.map(|link| link.page))
+    }
+
     fn resolved(&self, otherwise: Option<&str>) -> Result<Scenario, Failure> {
         let named = |place: String| move |error: ScenarioError| Failure::Input(format!("{place}: {error}"));
+        let link = self.link()?;
         let (place, mut draft) = match (&self.file, self.preset.as_deref().or(otherwise)) {
+            _ if let Some(link) = &link => ("--link".into(), Draft::from_scenario(link.scenario())),
             (Some(path), _) => {
                 let unreadable = |error| Failure::Input(format!("cannot read {}: {error}", path.display()));
                 let mut bytes = Vec::new();
@@ -123,7 +148,8 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "name a subcommand: model, run, figure, table2, map, study, presets or scenario (see --help)".into(),
+                "name a subcommand: model, run, figure, table2, map, study, link, presets or scenario (see --help)"
+                    .into(),
             )
             .report();
         }
@@ -138,6 +164,7 @@ pub fn main() -> ExitCode {
         Command::Table2(args) => args.execute(&mut out),
         Command::Map(args) => args.execute(&mut out),
         Command::Study(args) => args.execute(&mut out),
+        Command::Link(args) => args.execute(&mut out),
         Command::Presets => presets(&mut out),
         Command::Scenario => out.write_all(DEFAULT_TOML.as_bytes()).map_err(Failure::Output),
     };

@@ -2,10 +2,11 @@
 //!
 //! Reading order: [`inputs`] (the values, as written in TOML), [`keys`] (the table of them: what each means and may be),
 //! [`text`] (reading them), [`refusal`] (what is wrong where), [`plan`] (the same, validated and resolved: what follows
-//! cannot fail), [`motion`] (the commanded bend), [`preset`].
+//! cannot fail), [`motion`] (the commanded bend), [`preset`], [`link`] (a scenario in the address of a page).
 
 pub mod inputs;
 pub mod keys;
+pub mod link;
 pub mod motion;
 pub mod plan;
 pub mod preset;

@@ -16,7 +16,7 @@ pub struct FigureArgs {
     /// Number of the figure in the paper: 3, 4, 6, 7 or 8.
     #[arg(value_name = "NUMBER")]
     number: String,
-    /// Without a file or preset, the figure's own preset is drawn.
+    /// Without a file, preset or link, the figure's own preset is drawn.
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// File to write: its extension says how, svg, png or csv (numbers in SI units).

@@ -23,12 +23,13 @@ use std::path::PathBuf;
 /// Flags of `centrode study`.
 #[derive(Debug, Args)]
 pub struct StudyArgs {
-    /// Without a file or preset, `bench`: the default scenario has no noise.
+    /// Without a file, preset or link, `bench`: the default scenario has no noise. Repeats, method and false alarms are those of a link
+    /// where they are not given.
     #[command(flatten)]
     scenario: ScenarioArgs,
-    /// Repeats of each combination, with contact and without.
-    #[arg(long, value_name = "N", default_value_t = 200)]
-    repeats: usize,
+    /// Repeats of each combination, with contact and without; 200 by itself.
+    #[arg(long, value_name = "N")]
+    repeats: Option<usize>,
     /// An alarm later than this after contact counts as missed, in s.
     #[arg(long, value_name = "SECONDS", default_value_t = 1.0)]
     late: f64,
@@ -36,12 +37,12 @@ pub struct StudyArgs {
     /// of detection.xi2 or detection.xi1 take the place of the usual thresholds.
     #[arg(long = "sweep", value_name = "KEY=VALUES")]
     sweeps: Vec<String>,
-    /// How alarms are raised, for the recommendation: by the centrode, by joint forces, by either, by both at once.
-    #[arg(long, value_enum, default_value_t = MethodArg::Fcd)]
-    method: MethodArg,
-    /// The share of runs without contact that may alarm, above 0 and below 1.
-    #[arg(long, value_name = "RATE", default_value_t = 0.05)]
-    false_alarms: f64,
+    /// How alarms are raised, for the recommendation: by the centrode (fcd, by itself), by joint forces, by either, by both at once.
+    #[arg(long, value_enum)]
+    method: Option<MethodArg>,
+    /// The share of runs without contact that may alarm, above 0 and below 1; 0.05 by itself.
+    #[arg(long, value_name = "RATE")]
+    false_alarms: Option<f64>,
     /// Print JSON instead of a summary, in SI units: every cell with its curves.
     #[arg(long)]
     json: bool,
@@ -131,12 +132,19 @@ impl StudyArgs {
     /// Repeats, counts and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario_or("bench")?;
-        let wish = Wish { method: self.method.into(), false_alarm_rate: self.false_alarms };
+        let page = self.scenario.page()?;
+        let linked = page.as_ref().and_then(|page| Rule::ALL.into_iter().find(|rule| rule.name() == page.rule));
+        let wish = Wish {
+            method: self.method.map(Rule::from).or(linked).unwrap_or(Rule::Fcd),
+            false_alarm_rate: self.false_alarms.or(page.as_ref().map(|page| page.false_alarms)).unwrap_or(0.05),
+        };
         if !(wish.false_alarm_rate > 0.0 && wish.false_alarm_rate < 1.0) {
-            let line = format!("--false-alarms {}: a share above 0 and below 1 is expected", self.false_alarms);
+            let line = format!("--false-alarms {}: a share above 0 and below 1 is expected", wish.false_alarm_rate);
             return Err(Failure::Input(line));
         }
-        let study = Study::new(self.spec(&scenario)?).map_err(|error| Failure::Input(error.to_string()))?;
+        let linked = page.and_then(|page| usize::try_from(page.repeats).ok());
+        let repeats = self.repeats.or(linked).unwrap_or(200);
+        let study = Study::new(self.spec(&scenario, repeats)?).map_err(|error| Failure::Input(error.to_string()))?;
         let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
         // A file that cannot be written is said before the work, not after it.
         let [table, mut drawing] = [&self.csv, &self.svg].map(|path| path.as_deref().map(NewFile::create));
@@ -168,7 +176,7 @@ impl StudyArgs {
         Ok(())
     }
 
-    fn spec(&self, scenario: &Scenario) -> Result<Spec, Failure> {
+    fn spec(&self, scenario: &Scenario, repeats: usize) -> Result<Spec, Failure> {
         let (mut xi2, mut xi1) = (None, None);
         let mut others = Vec::new();
         let rule = scenario.detection.xi1_rule;
@@ -194,7 +202,7 @@ impl StudyArgs {
             *levels = Some(sweep.levels().map_err(refused)?);
         }
         let cells = combinations(&others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
-        Ok(Spec { scenario: scenario.clone(), repeats: self.repeats, late: self.late, cells, xi2, xi1 })
+        Ok(Spec { scenario: scenario.clone(), repeats, late: self.late, cells, xi2, xi1 })
     }
 }
 

@@ -13,7 +13,7 @@ use std::path::PathBuf;
 /// Flags of `centrode table2`.
 #[derive(Debug, Args)]
 pub struct Table2Args {
-    /// Without a file or preset, `bench`. Its contact is ignored: each disk has the contact of the preset `disk-1`, `bench` or `disk-3`.
+    /// Without a file, preset or link, `bench`. Its contact is ignored: each disk has the contact of the preset `disk-1`, `bench` or `disk-3`.
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// Experiments on each disk, 1 to 100000.

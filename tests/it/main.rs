@@ -21,6 +21,9 @@ mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
 mod keys;
+mod link;
+#[cfg(feature = "cli")]
+mod link_command;
 mod map;
 #[cfg(feature = "cli")]
 mod map_command;

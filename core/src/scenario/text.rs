@@ -112,7 +112,7 @@ fn read_group(scenario: &mut Scenario, group: &str, table: &Table) -> Result<(),
 }
 
 /// The refusal of a path, with what is known at the place where it goes astray.
-fn unknown(path: &str) -> ScenarioError {
+pub(super) fn unknown(path: &str) -> ScenarioError {
     let mut group = path;
     while let Some((before, _)) = group.rsplit_once('.') {
         group = before;

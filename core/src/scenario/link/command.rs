@@ -1,0 +1,65 @@
+//! The same as a command line.
+
+use super::Link;
+use crate::scenario::keys::Value;
+use crate::scenario::text::number;
+
+impl Link {
+    /// The command that computes what the page shows: a run, or the figure, map, table or study on the stage. In the
+    /// quotes of a shell where it needs them.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let view = self.page.view;
+        let figure = view.strip_prefix("figure-");
+        let mut words: Vec<String> = match (figure, view) {
+            (Some(number), _) => vec!["figure".into(), number.into()],
+            (None, "table2" | "map") => vec![view.into()],
+            (None, "tuning") => vec!["study".into()],
+            _ => vec!["run".into()],
+        };
+        words.extend(["--preset".into(), self.preset.name.into()]);
+        for (key, value) in &self.changes {
+            words.extend(["--set".into(), format!("{}={}", key.path, toml(value))]);
+        }
+        if view == "tuning" {
+            let page = &self.page;
+            words.extend(["--repeats".into(), page.repeats.to_string()]);
+            words.extend(["--method".into(), page.rule.into()]);
+            words.extend(["--false-alarms".into(), number(page.false_alarms)]);
+        }
+        if figure.is_some() {
+            words.extend(["--out".into(), format!("{view}.svg")]);
+        }
+        let quoted = words.iter().map(|word| quoted(word));
+        std::iter::once("centrode".into()).chain(quoted).collect::<Vec<_>>().join(" ")
+    }
+}
+
+/// A value as `--set` takes it.
+fn toml(value: &Value) -> String {
+    // TOML's whole number -0 has no sign.
+    let number = |value: f64| if value == 0.0 && value.is_sign_negative() { "-0.0".into() } else { number(value) };
+    match value {
+        Value::Number(value) => number(*value),
+        Value::List(values) => format!("[{}]", values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(",")),
+        other => super::written(other),
+    }
+}
+
+/// A word that a shell takes as it stands, or in quotes. No word here holds a quote.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_.,=+/:".contains(c);
+    if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_shell_reads_back_what_was_quoted() {
+        assert_eq!(quoted("contact.disk=3"), "contact.disk=3");
+        assert_eq!(quoted("robot.disks=[0.01,0.02]"), "'robot.disks=[0.01,0.02]'");
+        assert_eq!(quoted("it's"), r"'it'\''s'");
+    }
+}

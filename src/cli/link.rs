@@ -1,0 +1,59 @@
+//! `centrode link`: a scenario in the address of a page.
+
+use super::ScenarioArgs;
+use super::output::Failure;
+use centrode_core::scenario::link::{Link, Page};
+use centrode_core::scenario::preset;
+use clap::Args;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Flags of `centrode link`.
+#[derive(Debug, Args)]
+#[command(allow_missing_positional = true)]
+pub struct LinkArgs {
+    /// With a preset or link, what differs from that preset is written; else from the preset that comes nearest.
+    #[command(flatten)]
+    source: ScenarioArgs,
+    /// Scenario file (TOML), as a flag.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["file", "preset", "link"])]
+    scenario: Option<PathBuf>,
+    /// What the page shows: robot, figure-3, figure-4, figure-6, figure-7, figure-8, table2, map or tuning.
+    #[arg(long, value_name = "VIEW")]
+    view: Option<String>,
+    /// Where playback stands, in s; without it, it plays.
+    #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
+    t: Option<String>,
+    /// Address of the page, as in https://example.org/centrode/; its query stays, what stands behind # is replaced.
+    #[arg(value_name = "ADDRESS")]
+    address: String,
+}
+
+impl LinkArgs {
+    /// Prints the link.
+    pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        let known = self.source.link()?;
+        let scenario = match &self.scenario {
+            Some(path) => ScenarioArgs { file: Some(path.clone()), ..self.source.clone() }.scenario()?,
+            None => self.source.scenario()?,
+        };
+        let mut page = known.as_ref().map_or_else(Page::default, |link| link.page.clone());
+        for (key, flag, text) in [("view", "--view", &self.view), ("t", "--t", &self.t)] {
+            if let Some(text) = text {
+                page.enter(key, text).map_err(|error| Failure::Input(format!("{flag}: {error}")))?;
+            }
+        }
+        let preset = match (&self.source.preset, &known) {
+            (Some(name), _) => preset::find(name).ok(),
+            (None, Some(link)) => Some(link.preset()),
+            (None, None) => None,
+        };
+        let link = match preset {
+            Some(preset) => Link::new(preset, &scenario, page),
+            None => Link::nearest(&scenario, page),
+        };
+        let link = link.map_err(|error| Failure::Input(error.to_string()))?;
+        let text = link.at(&self.address).map_err(|error| Failure::Input(error.to_string()))?;
+        Ok(writeln!(out, "{text}")?)
+    }
+}
