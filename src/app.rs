@@ -11,6 +11,7 @@ pub mod controls;
 pub mod fonts;
 mod keys;
 pub mod layout;
+pub mod link;
 pub mod memo;
 pub mod panels;
 pub mod stages;
@@ -35,6 +36,7 @@ use command::Command;
 use controls::Inputs;
 use controls::control::Control;
 use layout::Layout;
+use link::Sharing;
 use memo::Memo;
 use panels::chip::Chip;
 use stages::StageState;
@@ -57,6 +59,10 @@ pub struct Host {
     pub prefers_reduced_motion: bool,
     /// Who makes studies outside the interface; without, they are made between frames.
     pub helper: Option<Box<dyn Helper>>,
+    /// The page's address, without its fragment; empty where it has none.
+    pub address: String,
+    /// The fragment of the address, without `#`: a link.
+    pub fragment: String,
 }
 
 /// The whole page.
@@ -72,19 +78,21 @@ pub struct App {
     tuner: Tuner,
     stages: StageState,
     source: Option<Source>,
+    sharing: Sharing,
     prefers_reduced_motion: bool,
 }
 
 impl App {
-    /// A page that opens playing. Without a render state there is no 3D view.
+    /// A page that opens playing, unless its link says where to stand. Without a render state there is no 3D view.
     #[must_use]
     pub fn new(ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>, host: Host) -> Self {
         theme::install(ctx);
         let state = State::default();
         ctx.set_theme(state.theme.preference());
-        Self {
+        let mut app = Self {
             base: state::shipped(state.preset()),
             memo: Memo::new(&state.scenario),
+            sharing: Sharing::new(host.address, &state),
             state,
             notes: BTreeMap::new(),
             chip: Chip::default(),
@@ -95,7 +103,9 @@ impl App {
             source: None,
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
-        }
+        };
+        app.go(&host.fragment);
+        app
     }
 
     /// What is set.
@@ -143,7 +153,7 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
-            keys::read(ui, self.end(), self.state.help, &mut out);
+            keys::read(ui, self.end(), self.state.help || self.sharing.notice.is_some(), &mut out);
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
         }
@@ -155,6 +165,7 @@ impl App {
             // Views were drawn before the controls were read: draw this frame again, with the new run.
             ui.ctx().request_discard("the scenario has changed");
         }
+        self.tell(ui);
         if self.state.playing {
             ui.ctx().request_repaint();
         }
@@ -227,6 +238,7 @@ impl App {
             tuner,
             stages,
             source,
+            sharing,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -290,6 +302,10 @@ impl App {
         if state.help {
             words::help::help(ui, out);
         }
+        panels::share::said(ui, layout.tools, sharing.said(ui));
+        if let Some(notice) = &sharing.notice {
+            panels::notice::notice(ui, notice, out);
+        }
     }
 
     /// Carries out commands. The only place where state changes, besides the passing of time.
@@ -340,10 +356,13 @@ impl App {
                     s.detection.armed_from = time;
                     Ok(())
                 }),
-                Command::Set(control, value) => self.change(&[control.key], |s| {
-                    control.slide(s, value);
-                    Ok(())
-                }),
+                Command::Set(control, value) => {
+                    self.sharing.slid = Some(control.key);
+                    self.change(&[control.key], |s| {
+                        control.slide(s, value);
+                        Ok(())
+                    });
+                }
                 Command::Enter(control, text) => self.change(&[control.key], |s| control.enter(s, &text)),
                 Command::Switch(control, on) => self.switch(control, on),
                 Command::Pick(choice, option) => self.change(&[choice.of.path], |s| {
@@ -364,6 +383,9 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::Share(what) => self.share(ctx, what),
+                Command::CloseNotice => self.sharing.notice = None,
+                Command::CopyNotice => self.copy_notice(ctx),
             }
         }
     }

@@ -3,6 +3,7 @@
 //! The page (`web/loader.js`) owns the document; this file only calls the hooks that it was given.
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
+mod outside;
 mod widgets;
 mod worker;
 
@@ -18,7 +19,7 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test, worker }`.
+    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment }`.
     pub type Options;
     /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
     #[wasm_bindgen(method, getter)]
@@ -32,6 +33,12 @@ extern "C" {
     /// Whether studies are made in a worker.
     #[wasm_bindgen(method, getter)]
     fn worker(this: &Options) -> bool;
+    /// The page's address, without its fragment.
+    #[wasm_bindgen(method, getter)]
+    fn address(this: &Options) -> String;
+    /// The fragment of the address, without `#`.
+    #[wasm_bindgen(method, getter)]
+    fn fragment(this: &Options) -> String;
 
     /// What the page wants to hear of.
     pub type Hooks;
@@ -41,6 +48,15 @@ extern "C" {
     /// A study is wanted from the worker (JSON), or none any more.
     #[wasm_bindgen(method)]
     fn study(this: &Hooks, request: Option<String>);
+    /// The address has this fragment from now on; whether one can go back to what was before.
+    #[wasm_bindgen(method)]
+    fn address(this: &Hooks, fragment: &str, step: bool);
+    /// A file is to be saved.
+    #[wasm_bindgen(method)]
+    fn save(this: &Hooks, name: &str, text: &str);
+    /// The person is to choose a file, see [`outside::file_opened`].
+    #[wasm_bindgen(method)]
+    fn choose(this: &Hooks);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -83,7 +99,12 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
     };
     let helper = options.worker().then(|| Box::new(worker::Worker) as Box<dyn Helper>);
-    let host = Host { prefers_reduced_motion: options.reduced_motion(), helper };
+    let host = Host {
+        prefers_reduced_motion: options.reduced_motion(),
+        helper,
+        address: options.address(),
+        fragment: options.fragment(),
+    };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
     let name_out = std::rc::Rc::clone(&name);
@@ -163,7 +184,9 @@ struct Shell {
 impl eframe::App for Shell {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         assert!(!FAIL.get(), "a test asked for this panic");
+        outside::take_in(&mut self.app);
         self.app.ui(ui);
+        self.app.take_effects().into_iter().for_each(outside::hand_out);
         let report = self.app.report();
         if report != self.last_report {
             with_hooks(|hooks| hooks.report(&report));

@@ -1,5 +1,7 @@
 // Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
+import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
+import { acceptDrops, choose, save } from "./files.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { readQuery } from "./query.js";
@@ -36,7 +38,10 @@ const hooks = {
   },
   panicked: (message) => fail(showFailure, message),
   lost: (message) => fail(showLost, message),
+  address: tell,
+  save,
   // Set once the program is there.
+  choose: () => {},
   study: () => {},
 };
 
@@ -61,6 +66,8 @@ async function startOnSome(core) {
       reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
       test: settings.test,
       worker: settings.worker === "auto",
+      address: address(),
+      fragment: fragment(),
     };
     try {
       const used = await core.start(canvas, options, hooks);
@@ -84,6 +91,9 @@ async function main() {
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
+  hooks.choose = () => choose(core);
+  acceptDrops(core);
+  listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());
 }

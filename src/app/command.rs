@@ -7,6 +7,19 @@ use centrode_core::scenario::Threshold;
 use centrode_core::scenario::preset::Preset;
 use centrode_core::study::tuning::watch::Rule;
 
+/// What leaves the page or comes in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Share {
+    /// Copy the link to what the page shows.
+    CopyLink,
+    /// Copy the command that computes what the page shows.
+    CopyCommand,
+    /// Save the scenario as a file.
+    Save,
+    /// Choose a file with a scenario, and open it.
+    Open,
+}
+
 /// One wish.
 #[derive(Debug, Clone)]
 pub enum Command {
@@ -76,4 +89,10 @@ pub enum Command {
     ToggleSheet,
     /// Open or close the help.
     ToggleHelp,
+    /// Hand something out, or ask for something to come in.
+    Share(Share),
+    /// Close the notice.
+    CloseNotice,
+    /// Copy what the notice says.
+    CopyNotice,
 }

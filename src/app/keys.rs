@@ -4,9 +4,9 @@ use egui::{Key, Modifiers, Ui};
 
 use crate::app::command::Command;
 
-/// Reads the keys that play. Whatever has the focus keeps its keys, and so does an open help.
-pub fn read(ui: &Ui, end: f64, help: bool, out: &mut Vec<Command>) {
-    if help || ui.memory(|memory| memory.focused().is_some()) {
+/// Reads the keys that play. Whatever has the focus keeps its keys, and so does what lies open over the page.
+pub fn read(ui: &Ui, end: f64, covered: bool, out: &mut Vec<Command>) {
+    if covered || ui.memory(|memory| memory.focused().is_some()) {
         return;
     }
     ui.input_mut(|input| {

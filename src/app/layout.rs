@@ -13,7 +13,7 @@ pub struct Layout {
     pub title: Rect,
     /// The bar of views.
     pub views: Rect,
-    /// Theme, help and, where they are in a sheet, controls.
+    /// Sharing, theme, help and, where they are in a sheet, controls.
     pub tools: Rect,
     /// 3D view.
     pub view: Rect,

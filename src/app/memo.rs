@@ -4,7 +4,8 @@ use thiserror::Error;
 
 use crate::show::track::Trace;
 use centrode_core::run::{Anew, Run, simulate};
-use centrode_core::scenario::{Plan, Scenario, ScenarioError};
+use centrode_core::scenario::keys::{Allowed, Quantity, Value};
+use centrode_core::scenario::{Plan, Refused, Scenario, ScenarioError};
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
 pub const MAX_SAMPLES: usize = 200_000;
@@ -35,6 +36,19 @@ pub enum Refusal {
 /// Why not.
 pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
     plan(scenario).map(drop)
+}
+
+impl Refusal {
+    /// As the refusal of a key.
+    #[must_use]
+    pub fn of_key(self) -> ScenarioError {
+        match self {
+            Self::Impossible(error) => error,
+            Self::TooLong { end, samples, .. } => {
+                Refused::error("motion.end", Quantity::Time, Value::Number(end), Allowed::Kept(MAX_SAMPLES, samples))
+            }
+        }
+    }
 }
 
 fn plan(scenario: &Scenario) -> Result<Plan, Refusal> {

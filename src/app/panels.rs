@@ -1,7 +1,9 @@
 //! The parts of the page.
 
 pub mod chip;
+pub mod notice;
 pub mod readout;
+pub mod share;
 pub mod tabs;
 pub mod title;
 pub mod transport;

@@ -1,5 +1,6 @@
 //! What the page says: sentences, figures in words, refusals, help.
 
 pub mod help;
+pub mod link;
 pub mod refusal;
 pub mod story;

@@ -102,6 +102,7 @@ fn a_broken_link_is_refused_and_its_keys_are_named() {
         (&["link", "--preset", "bench"], &["<ADDRESS>"]),
         (&["link", "--preset", "none", PAGE], &["none", "bench, paper"]),
         (&["link", "--view", "plots", PAGE], &["--view", "plots", "robot"]),
+        (&["link", "--t", "10.5", PAGE], &["t = 10.5", "motion.end = 10 s"]),
         (&["link", "--t", "-1", PAGE], &["--t", "-1", "0 s"]),
         (&["link", "--scenario", "no-such.toml", PAGE], &["no-such.toml"]),
         (&["link", "--scenario", "a.toml", "--preset", "bench", PAGE], &["--preset"]),

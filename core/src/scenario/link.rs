@@ -65,9 +65,10 @@ impl Link {
     /// The link to a scenario, said by what differs from a preset.
     ///
     /// # Errors
-    /// When the scenario is impossible.
+    /// When the scenario is impossible, or the page's time lies beyond its end.
     pub fn new(preset: &'static Preset, scenario: &Scenario, page: Page) -> Result<Self, ScenarioError> {
         KEYS.iter().try_for_each(|key| key.check(scenario))?;
+        page.within(scenario)?;
         let changes = differences(&preset.scenario()?, scenario);
         Ok(Self { preset, changes, scenario: scenario.clone(), page })
     }
@@ -75,7 +76,7 @@ impl Link {
     /// The link to a scenario, said by what differs from the preset from which the least differs.
     ///
     /// # Errors
-    /// When the scenario is impossible.
+    /// When the scenario is impossible, or the page's time lies beyond its end.
     pub fn nearest(scenario: &Scenario, page: Page) -> Result<Self, ScenarioError> {
         let mut nearest = Self::new(&PRESETS[0], scenario, page)?;
         for preset in &PRESETS[1..] {

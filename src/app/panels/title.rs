@@ -1,4 +1,4 @@
-//! The two ends of the title bar: name and presets; theme and help.
+//! The two ends of the title bar: name and presets; sharing, theme and help.
 
 use egui::{
     Align2, CursorIcon, Popup, Rect, Response, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2,
@@ -6,6 +6,7 @@ use egui::{
 
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::panels::share;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::icon::{self, Icon, Look};
@@ -37,10 +38,10 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 /// Width that [`tools`] takes, points.
 #[must_use]
 pub fn tools_width(sheet: bool) -> f32 {
-    if sheet { 120.0 } else { 82.0 }
+    if sheet { 158.0 } else { 120.0 }
 }
 
-/// Shows theme and help; `sheet` asks for the button that opens the controls.
+/// Shows sharing, theme and help; `sheet` asks for the button that opens the controls.
 pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
     let mut right = rect.right_center() - vec2(20.0, 0.0);
     let mut place = |width: f32| {
@@ -59,6 +60,7 @@ pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
     if icon::button(ui, place(38.0), sign, label, Look::Plain).clicked() {
         out.push(Command::NextTheme);
     }
+    share::menu(ui, place(38.0), out);
     if sheet {
         let look = if state.sheet { Look::Lit } else { Look::Plain };
         if icon::button(ui, place(38.0), Icon::Controls, "Controls", look).clicked() {
@@ -112,7 +114,8 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
             ui.set_width(width);
             ui.spacing_mut().item_spacing.y = 2.0;
             for preset in PRESETS {
-                if item(ui, &name(preset), preset.summary(), std::ptr::eq(preset, chosen), &theme) {
+                let this = std::ptr::eq(preset, chosen);
+                if item(ui, Role::ListBoxOption, (&name(preset), preset.summary()), this, &theme) {
                     out.push(Command::Choose(preset));
                     ui.close();
                 }
@@ -124,8 +127,8 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     }
 }
 
-/// A choice with what it shows; returns whether it was clicked.
-fn item(ui: &mut Ui, title: &str, summary: &str, chosen: bool, theme: &Theme) -> bool {
+/// A choice with what it shows or does; returns whether it was clicked.
+pub(super) fn item(ui: &mut Ui, role: Role, (title, summary): (&str, &str), chosen: bool, theme: &Theme) -> bool {
     let mut job = egui::text::LayoutJob::default();
     job.wrap.max_width = ui.available_width() - 20.0;
     let format = |font, color| egui::TextFormat { font_id: font, color, ..Default::default() };
@@ -134,7 +137,7 @@ fn item(ui: &mut Ui, title: &str, summary: &str, chosen: bool, theme: &Theme) ->
     let galley = ui.painter().layout_job(job);
     let size = vec2(ui.available_width(), galley.size().y + 12.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| WidgetInfo::selected(Role::ListBoxOption, ui.is_enabled(), chosen, title));
+    response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), chosen, title));
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }

@@ -119,6 +119,22 @@ impl Stage {
         }
     }
 
+    /// Its name in a link.
+    #[must_use]
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Robot => "robot",
+            Self::Figure3 => "figure-3",
+            Self::Figure4 => "figure-4",
+            Self::Figure6 => "figure-6",
+            Self::Figure7 => "figure-7",
+            Self::Figure8 => "figure-8",
+            Self::Table2 => "table2",
+            Self::Map => "map",
+            Self::Tuning => "tuning",
+        }
+    }
+
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {

@@ -39,6 +39,8 @@ pub enum Icon {
     Controls,
     /// A cross.
     Close,
+    /// An arrow out of a tray.
+    Share,
 }
 
 /// How a button looks.
@@ -90,6 +92,7 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Help => "help",
         Icon::Controls => "controls",
         Icon::Close => "close",
+        Icon::Share => "share",
     }
 }
 
@@ -159,6 +162,12 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
                 painter.line_segment([p(-6.5, y), p(6.5, y)], stroke);
                 painter.circle_filled(p(x, y), 2.8 * scale, ink);
             }
+        }
+        Icon::Share => {
+            painter.line_segment([p(0.0, 2.0), p(0.0, -6.0)], stroke);
+            painter.line([(-3.2, -3.2), (0.0, -6.4), (3.2, -3.2)].map(|(x, y)| p(x, y)).to_vec(), stroke);
+            let tray = [(-3.4, -0.8), (-5.6, -0.8), (-5.6, 6.0), (5.6, 6.0), (5.6, -0.8), (3.4, -0.8)];
+            painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
         }
         Icon::Close => {
             painter.line_segment([p(-4.2, -4.2), p(4.2, 4.2)], stroke);

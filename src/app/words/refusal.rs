@@ -39,6 +39,12 @@ pub fn told(refusal: &Refusal) -> String {
     }
 }
 
+/// What the page calls a key; none when no control sets it.
+#[must_use]
+pub fn called(key: &str) -> Option<&'static str> {
+    table::control_of(key).map(|control| label(control, key))
+}
+
 /// What a control is called while it holds this key.
 fn label(control: &Control, key: &str) -> &'static str {
     match key {

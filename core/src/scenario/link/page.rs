@@ -1,6 +1,7 @@
 //! What a link says of the page beside the scenario: a short table of what one must know to see the same. Theme, folded
 //! groups and the like are the reader's own and stay out.
 
+use crate::scenario::Scenario;
 use crate::scenario::keys::allowed::Limit;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::plan::MAX_TIME;
@@ -141,6 +142,20 @@ impl Page {
             let value = (key.get)(self)?;
             ((key.get)(&default).as_ref() != Some(&value)).then_some((key, value))
         })
+    }
+
+    /// Checks that the cursor stands inside a scenario's run.
+    ///
+    /// # Errors
+    /// When it does not.
+    pub fn within(&self, scenario: &Scenario) -> Result<(), ScenarioError> {
+        let end = Limit::Key("motion.end", Some(scenario.motion.end));
+        match self.time {
+            Some(time) if time > scenario.motion.end => {
+                Err(Refused::error("t", Quantity::Time, Value::Number(time), Allowed::Range(Limit::At(0.0), end)))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Sets one of its keys from a text.

@@ -5,7 +5,7 @@ use super::{Link, MAX_LINK, PAGE_KEYS, Page, VERSION, differences, is_address};
 use crate::scenario::keys::{self, Allowed, GROUPS, Key, Quantity, Value};
 use crate::scenario::preset::{self, PRESETS, Preset};
 use crate::scenario::refusal::Refused;
-use crate::scenario::text::unknown;
+use crate::scenario::text::{number, unknown};
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use std::fmt;
 use thiserror::Error;
@@ -210,6 +210,11 @@ impl Reader {
             let Given { key, text, .. } = given.remove(place);
             self.fault(key.path, &text, refused.into(), Some(key));
         };
+        if let Err(refused) = self.page.within(&scenario) {
+            let time = self.page.time.map(number).unwrap_or_default();
+            self.page.time = Some(scenario.motion.end);
+            self.fault("t", &time, refused.into(), None);
+        }
         let broken = self.faults.into_iter().map(|Fault(broken, key)| {
             let used = used(&broken, key, preset, &scenario, &self.page);
             Broken { used, ..broken }

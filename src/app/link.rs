@@ -1,0 +1,288 @@
+//! What leaves the page and comes in: its state as a link, files, and what is copied.
+//!
+//! The page keeps its address up to date and tells its surroundings how: a deliberate step (a preset, a view, a released
+//! slider, a typed value) is one to go back to, a passing one (where playback stands) takes the place of the last. While
+//! a pointer is down nothing is told. The surroundings fetch [`App::take_effects`] after each frame and hand in what
+//! comes by [`App::go`] and [`App::opened`].
+
+use egui::Ui;
+
+use super::App;
+use crate::app::command::Share;
+use crate::app::memo;
+use crate::app::panels::notice::Notice;
+use crate::app::stages::stage::{Section, Stage};
+use crate::app::state::{self, State, Tuning};
+use crate::app::words::{self, refusal};
+use centrode_core::scenario::link::{Link, Page};
+use centrode_core::scenario::text::Draft;
+use centrode_core::scenario::{Scenario, ScenarioError};
+use centrode_core::study::tuning::watch::Rule;
+
+/// No scenario file is larger than this, bytes.
+pub const MAX_FILE: usize = 1 << 20;
+/// How long something said in passing is shown, s.
+const SAID: f64 = 2.5;
+
+/// What the page wants of its surroundings.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Effect {
+    /// The address has this fragment from now on.
+    Address {
+        /// Without `#`.
+        fragment: String,
+        /// Whether one can go back to what was before.
+        step: bool,
+    },
+    /// A file is to be saved.
+    Save {
+        /// Its name.
+        name: String,
+        /// What it holds.
+        text: String,
+    },
+    /// The person is to choose a file, which comes in by [`App::opened`].
+    Choose,
+}
+
+/// What is known of the world outside.
+#[derive(Debug)]
+pub struct Sharing {
+    /// The page's address, without its fragment.
+    address: String,
+    /// What the address says, as far as this page knows.
+    told: (String, Scenario, Page),
+    effects: Vec<Effect>,
+    /// What lies over the page to be read.
+    pub(super) notice: Option<Notice>,
+    /// Said in passing, and until when (s).
+    said: Option<(String, Option<f64>)>,
+    /// Key of the slider moved since the address was last told, and then.
+    pub(super) slid: Option<&'static str>,
+    slid_before: Option<&'static str>,
+}
+
+impl Sharing {
+    /// At an address (without its fragment) that says what a state is.
+    #[must_use]
+    pub fn new(address: String, state: &State) -> Self {
+        Self {
+            address,
+            told: (state.preset.clone(), state.scenario.clone(), page(state, state.time)),
+            effects: Vec::new(),
+            notice: None,
+            said: None,
+            slid: None,
+            slid_before: None,
+        }
+    }
+
+    /// What is said in passing, as long as it is to be shown.
+    pub(super) fn said(&mut self, ui: &Ui) -> Option<&str> {
+        let now = ui.input(|input| input.time);
+        let (_, until) = self.said.as_mut()?;
+        let left = *until.get_or_insert(now + SAID) - now;
+        if left <= 0.0 {
+            self.said = None;
+        } else {
+            ui.ctx().request_repaint_after_secs(left as f32);
+        }
+        self.said.as_ref().map(|(text, _)| text.as_str())
+    }
+
+    fn say(&mut self, text: impl Into<String>) {
+        self.said = Some((text.into(), None));
+    }
+
+    fn address(&mut self, fragment: String, step: bool) {
+        // What nobody has fetched yet is not worth going back to.
+        if !step && let Some(Effect::Address { fragment: last, .. }) = self.effects.last_mut() {
+            *last = fragment;
+        } else {
+            self.effects.push(Effect::Address { fragment, step });
+        }
+    }
+}
+
+/// What a link says of the page in a state with its cursor (s).
+fn page(state: &State, cursor: f64) -> Page {
+    Page {
+        view: state.stage.key(),
+        time: (!state.playing).then_some((cursor * 1e4).round() / 1e4),
+        speed: state.speed,
+        looping: state.looping,
+        rule: state.tuning.method.name(),
+        false_alarms: state.tuning.wish,
+        repeats: state.tuning.repeats as u64,
+    }
+}
+
+/// Whether the page can run a scenario; if not, why, by key.
+fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
+    memo::check(scenario).map_err(memo::Refusal::of_key)
+}
+
+impl App {
+    /// What the page wants of its surroundings since this was last asked.
+    pub fn take_effects(&mut self) -> Vec<Effect> {
+        std::mem::take(&mut self.sharing.effects)
+    }
+
+    /// What lies over the page to be read.
+    #[must_use]
+    pub fn notice(&self) -> Option<&Notice> {
+        self.sharing.notice.as_ref()
+    }
+
+    /// Goes where a link says (an address, or its fragment): at the start, back, forward, or as the person edited it.
+    /// What cannot be read is told.
+    pub fn go(&mut self, link: &str) {
+        let (read, broken) = Link::read_if(link, check);
+        self.load_link(&read);
+        if let Some(time) = read.page.time {
+            self.state.time = time;
+            self.state.playing = false;
+        }
+        if !broken.is_empty() {
+            self.sharing.notice = Some(words::link::notice(link, &broken));
+        }
+        self.memo.update(&self.state.scenario);
+        self.sharing.told = self.current();
+    }
+
+    fn load_link(&mut self, link: &Link) {
+        let changed = link.preset().name != self.state.preset || *link.scenario() != self.state.scenario;
+        if changed {
+            self.state.preset = link.preset().name.into();
+            self.base = state::shipped(link.preset());
+            self.load(link.scenario().clone());
+            if self.state.playing {
+                self.state.time = state::lead_in(link.scenario());
+            }
+        }
+        let Page { view, time: _, speed, looping, rule, false_alarms, repeats } = link.page;
+        self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
+        if self.state.stage.section() == Section::Paper {
+            self.state.paper = self.state.stage;
+        }
+        (self.state.speed, self.state.looping) = (speed, looping);
+        let method = Rule::ALL.into_iter().find(|known| known.name() == rule).unwrap_or(Rule::Fcd);
+        let repeats = usize::try_from(repeats).unwrap_or(Tuning::default().repeats);
+        self.state.tuning = Tuning { method, wish: false_alarms, repeats };
+    }
+
+    /// A file has come in, chosen or dropped; or why it could not be read.
+    pub fn opened(&mut self, name: &str, bytes: Result<Vec<u8>, String>) {
+        let read = bytes.and_then(|bytes| {
+            if bytes.len() > MAX_FILE {
+                return Err("It is larger than 1 MiB, so it is no scenario".into());
+            }
+            let scenario = Draft::from_bytes(&bytes).and_then(Draft::finish);
+            let scenario = scenario.map_err(memo::Refusal::Impossible);
+            let scenario = scenario.and_then(|scenario| memo::check(&scenario).map(|()| scenario));
+            let scenario = scenario.map_err(|refused| refusal::told(&refused))?;
+            Link::nearest(&scenario, page(&State { playing: true, ..self.state.clone() }, 0.0))
+                .map_err(|refused| refused.to_string())
+        });
+        match read {
+            Ok(link) => {
+                let own = self.state.stage.own_preset();
+                self.load_link(&link);
+                // Whoever opens a scenario wants to see it: a figure would go on showing its own.
+                if own.is_some_and(|own| own != link.preset().name) {
+                    self.state.stage = Stage::Robot;
+                }
+                self.sharing.say(format!("{name} opened"));
+            }
+            Err(why) => self.sharing.notice = Some(words::link::not_opened(name, &why)),
+        }
+    }
+
+    fn current(&self) -> (String, Scenario, Page) {
+        (self.state.preset.clone(), self.state.scenario.clone(), page(&self.state, self.cursor()))
+    }
+
+    /// The link to what the page shows.
+    fn link(&self) -> Result<Link, ScenarioError> {
+        Link::new(self.state.preset(), &self.state.scenario, page(&self.state, self.cursor()))
+    }
+
+    /// Brings the address up to date, unless a pointer is still at it.
+    pub(super) fn tell(&mut self, ui: &Ui) {
+        let (down, released) = ui.input(|input| (input.pointer.any_down(), input.pointer.any_released()));
+        let (preset, scenario, page_told) = &self.sharing.told;
+        let page = page(&self.state, self.cursor());
+        let same = *preset == self.state.preset && *scenario == self.state.scenario;
+        if down || (same && *page_told == page) {
+            return;
+        }
+        let passing = Page { time: page.time, speed: page.speed, looping: page.looping, ..page_told.clone() };
+        let slid = self.sharing.slid.take();
+        // A key held down on a slider is one step, not one for every repeat.
+        let again = slid.is_some() && slid == self.sharing.slid_before && !released;
+        let step = !(again || same && passing == page);
+        if !same || step {
+            self.sharing.slid_before = slid;
+        }
+        if let Some(fragment) = self.link().ok().and_then(|link| link.fragment().ok()) {
+            self.sharing.address(fragment, step);
+        }
+        self.sharing.told = self.current();
+    }
+
+    /// Hands something out, or asks for something to come in.
+    pub(super) fn share(&mut self, ctx: &egui::Context, what: Share) {
+        match what {
+            Share::CopyLink => {
+                let here = |mut link: Link| {
+                    // What one sees, also while it moves.
+                    link.page.time = Some((self.cursor() * 1e4).round() / 1e4);
+                    if self.sharing.address.is_empty() {
+                        return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
+                    }
+                    link.at(&self.sharing.address).map_err(|why| why.to_string())
+                };
+                match self.link().map_err(|why| why.to_string()).and_then(here) {
+                    Ok(text) => {
+                        ctx.copy_text(text);
+                        self.sharing.say("Link copied");
+                    }
+                    Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
+                }
+            }
+            Share::CopyCommand => match self.command() {
+                Ok(text) => {
+                    ctx.copy_text(text);
+                    self.sharing.say("Command copied");
+                }
+                Err(why) => self.sharing.notice = Some(words::link::no_link(&why.to_string())),
+            },
+            Share::Save => {
+                let name = format!("centrode-{}.toml", self.state.preset);
+                let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
+                self.sharing.effects.push(Effect::Save { name, text });
+            }
+            Share::Open => self.sharing.effects.push(Effect::Choose),
+        }
+    }
+
+    /// The command that computes what is on the stage: a figure's own scenario where that is what it shows.
+    fn command(&self) -> Result<String, ScenarioError> {
+        let own = self.source.as_ref().filter(|source| !source.taken);
+        let link = match own {
+            Some(own) => {
+                let page = Page { time: None, ..page(&self.state, 0.0) };
+                Link::new(own.preset, &own.scenario, page)?
+            }
+            None => self.link()?,
+        };
+        Ok(link.command())
+    }
+
+    pub(super) fn copy_notice(&mut self, ctx: &egui::Context) {
+        if let Some(notice) = &self.sharing.notice {
+            ctx.copy_text(notice.details.clone());
+            self.sharing.say("Details copied");
+        }
+    }
+}

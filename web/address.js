@@ -1,0 +1,69 @@
+// The fragment of the address, which says what the page shows.
+
+// Browsers refuse more than about a hundred changes in half a minute.
+const APART_MS = 400;
+let known = fragment();
+let last = -APART_MS;
+let waiting = null;
+let pending = null;
+
+/// The fragment of the address, without `#`. As it stands there: `location.hash` is not the same in all browsers.
+export function fragment() {
+  return location.href.split("#").slice(1).join("#");
+}
+
+/// The address without its fragment.
+export function address() {
+  return location.href.split("#", 1)[0];
+}
+
+function write(text, step) {
+  try {
+    history[step ? "pushState" : "replaceState"](null, "", `#${text}`);
+    known = fragment();
+    last = performance.now();
+  } catch {
+    // Too many of them: the newest is written once the browser takes one again.
+    later(text);
+  }
+}
+
+function later(text) {
+  pending = text;
+  waiting ??= setTimeout(flush, Math.max(APART_MS, last + APART_MS - performance.now()));
+}
+
+function flush() {
+  clearTimeout(waiting);
+  waiting = null;
+  const text = pending;
+  pending = null;
+  if (text !== null) write(text, false);
+}
+
+/// The address has this fragment from now on; with `step`, one can go back to what it was before.
+export function tell(text, step) {
+  if (step) {
+    flush();
+    write(text, true);
+  } else if (waiting === null && performance.now() - last >= APART_MS) {
+    write(text, false);
+  } else {
+    later(text);
+  }
+}
+
+/// Calls `go` with the fragment whenever the person went back, forward, or edited the address.
+export function listen(go) {
+  const moved = () => {
+    if (fragment() === known) return;
+    known = fragment();
+    // What was to be written belonged to the place that was left.
+    pending = null;
+    go(known);
+  };
+  addEventListener("popstate", moved);
+  addEventListener("hashchange", moved);
+  // What waits is not lost by a reload.
+  addEventListener("pagehide", flush);
+}
