@@ -11,6 +11,7 @@ use crate::app::stages::tuner::Helper;
 use crate::app::{App, Host};
 use centrode_core::run::simulate;
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::link::Link;
 use eframe::wgpu;
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
@@ -70,6 +71,8 @@ thread_local! {
     static HOOKS: RefCell<Option<Hooks>> = const { RefCell::new(None) };
     static TEST: Cell<bool> = const { Cell::new(false) };
     static FAIL: Cell<bool> = const { Cell::new(false) };
+    /// For a test: the scenario of the run that is shown, and the run's fingerprint.
+    static SHOWN: RefCell<Option<(Scenario, u64)>> = const { RefCell::new(None) };
     static CONTEXT: RefCell<Option<egui::Context>> = const { RefCell::new(None) };
 }
 
@@ -187,11 +190,26 @@ impl eframe::App for Shell {
         outside::take_in(&mut self.app);
         self.app.ui(ui);
         self.app.take_effects().into_iter().for_each(outside::hand_out);
+        if TEST.get() {
+            self.remember();
+        }
         let report = self.app.report();
         if report != self.last_report {
             with_hooks(|hooks| hooks.report(&report));
             self.last_report = report;
         }
+    }
+}
+
+impl Shell {
+    /// Keeps the fingerprint of the run that is shown.
+    fn remember(&self) {
+        SHOWN.with_borrow_mut(|shown| {
+            let run = self.app.run();
+            if shown.as_ref().is_none_or(|(scenario, _)| scenario != run.plan.scenario()) {
+                *shown = Some((run.plan.scenario().clone(), run.fingerprint()));
+            }
+        });
     }
 }
 
@@ -219,6 +237,24 @@ pub fn fingerprint(scenario_toml: &str) -> String {
         Ok(run) => format!("{:016x}", run.fingerprint()),
         Err(error) => error.to_string(),
     }
+}
+
+/// The same of the scenario of a link. A link that cannot be read whole gives what is wrong with it instead.
+#[wasm_bindgen]
+#[must_use]
+pub fn link_fingerprint(link: &str) -> String {
+    let (link, broken) = Link::read(link);
+    match broken.first() {
+        Some(broken) => broken.to_string(),
+        None => fingerprint(&link.scenario().to_toml()),
+    }
+}
+
+/// The hash of every channel of the run that the page shows. Empty unless opened by a test.
+#[wasm_bindgen]
+#[must_use]
+pub fn shown_fingerprint() -> String {
+    SHOWN.with_borrow(|shown| shown.as_ref().map_or_else(String::new, |(_, hash)| format!("{hash:016x}")))
 }
 
 /// The hashes of [`centrode_core::fingerprints`] as a JSON object, to be compared with the stored ones.

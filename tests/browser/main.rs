@@ -26,6 +26,7 @@ mod core;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
+mod links;
 mod paper;
 mod start;
 mod tuning;

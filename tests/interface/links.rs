@@ -184,7 +184,7 @@ fn a_broken_link_is_told_in_the_page_s_words() {
             "Unknown key bogus; known are: preset, loop_rate, seed",
             "filter.length=0.5",
             "Run ends 300.00 s: at most 200000 samples",
-            "Used instead: Run ends 10 s.",
+            "Used instead: Run ends 10\u{a0}s.",
         ] {
             assert!(!texts(&page, said).is_empty(), "{said:?} at {size}: {:?}", app(&page).notice());
         }
