@@ -2,6 +2,10 @@
 
 // Browsers refuse more than about a hundred changes in half a minute.
 const APART_MS = 400;
+// One that refuses is asked again so much later, and so often.
+const AGAIN_MS = 3000;
+const MOST_REFUSED = 20;
+let refused = 0;
 let known = fragment();
 let last = -APART_MS;
 let waiting = null;
@@ -22,15 +26,17 @@ function write(text, step) {
     history[step ? "pushState" : "replaceState"](null, "", `#${text}`);
     known = fragment();
     last = performance.now();
+    refused = 0;
   } catch {
     // Too many of them: the newest is written once the browser takes one again.
-    later(text);
+    refused += 1;
+    if (refused < MOST_REFUSED) later(text, AGAIN_MS);
   }
 }
 
-function later(text) {
+function later(text, wait) {
   pending = text;
-  waiting ??= setTimeout(flush, Math.max(APART_MS, last + APART_MS - performance.now()));
+  waiting ??= setTimeout(flush, wait);
 }
 
 function flush() {
@@ -49,7 +55,7 @@ export function tell(text, step) {
   } else if (waiting === null && performance.now() - last >= APART_MS) {
     write(text, false);
   } else {
-    later(text);
+    later(text, APART_MS);
   }
 }
 

@@ -213,11 +213,14 @@ impl App {
         let (preset, scenario, page_told) = &self.sharing.told;
         let page = page(&self.state, self.cursor());
         let same = *preset == self.state.preset && *scenario == self.state.scenario;
-        if down || (same && *page_told == page) {
+        if down {
+            return;
+        }
+        let slid = self.sharing.slid.take();
+        if same && *page_told == page {
             return;
         }
         let passing = Page { time: page.time, speed: page.speed, looping: page.looping, ..page_told.clone() };
-        let slid = self.sharing.slid.take();
         // A key held down on a slider is one step, not one for every repeat.
         let again = slid.is_some() && slid == self.sharing.slid_before && !released;
         let step = !(again || same && passing == page);
