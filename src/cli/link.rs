@@ -24,7 +24,7 @@ pub struct LinkArgs {
     /// Where playback stands, in s; without it, it plays.
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     t: Option<String>,
-    /// Address of the page, as in https://example.org/centrode/; its query stays, what stands behind # is replaced.
+    /// Address of the page, as in `https://example.org/centrode/`; its query stays, what stands behind # is replaced.
     #[arg(value_name = "ADDRESS")]
     address: String,
 }

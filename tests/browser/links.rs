@@ -64,23 +64,23 @@ fn the_address_follows_and_is_replayed_to_the_last_bit() {
 
 #[test]
 fn a_link_opens_and_a_reload_restores() {
-    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&contact.disk=3&t=6.28&loop=off", Options::default());
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&contact.disk=3&t=6.27&loop=off", Options::default());
     wait_for_disk(&mut page, 3.0);
-    assert_eq!(page.number("time"), Some(6.28));
+    assert_eq!(page.number("time"), Some(6.27));
     page.type_number("Seed", "7");
     let link = wait_for_fragment(&mut page, "seed=7");
     let detected = page.number("detectionTime");
     reload(&mut page);
     wait_for_disk(&mut page, 3.0);
     assert_eq!(fragment(&mut page), link);
-    assert_eq!((page.number("time"), page.number("detectionTime")), (Some(6.28), detected));
+    assert_eq!((page.number("time"), page.number("detectionTime")), (Some(6.27), detected));
     assert_eq!(page.widget("Slider", "Seed").number, Some(7.0));
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 
 #[test]
 fn back_and_forward_work() {
-    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.28", Options::default());
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.27", Options::default());
     page.type_number("Contact disk", "3");
     wait_for_fragment(&mut page, "contact.disk=3");
     page.type_number("Contact disk", "1");
@@ -91,7 +91,7 @@ fn back_and_forward_work() {
     wait_for_disk(&mut page, 2.0);
     page.eval("history.forward(); 1");
     wait_for_disk(&mut page, 3.0);
-    assert_eq!(fragment(&mut page), "preset=bench&contact.disk=3&t=6.28");
+    assert_eq!(fragment(&mut page), "preset=bench&contact.disk=3&t=6.27");
     // An address edited by hand.
     page.eval("location.hash = '#preset=bench&contact.disk=1'; 1");
     wait_for_disk(&mut page, 1.0);
@@ -114,7 +114,7 @@ fn a_broken_link_opens_its_dialog() {
 
 #[test]
 fn a_dropped_scenario_is_opened_and_a_saved_one_is_handed_out() {
-    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.28", Options::default());
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.27", Options::default());
     let drop = |text: &str| {
         format!(
             "(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], 'mine.toml')); \

@@ -87,10 +87,10 @@ fn every_stage_has_a_name_in_links_and_the_defaults_agree() {
 
 #[test]
 fn a_link_is_what_the_page_opens_on() {
-    let link = "preset=disk-3&seed=7&detection.xi2=off&view=tuning&t=6.28&speed=0.5&loop=off&rule=or&false_alarms=0.1&repeats=400";
+    let link = "preset=disk-3&seed=7&detection.xi2=off&view=tuning&t=6.27&speed=0.5&loop=off&rule=or&false_alarms=0.1&repeats=400";
     let mut page = page_at(DESK, link);
     let state = app(&page).state().clone();
-    assert_eq!((state.preset.as_str(), state.stage, state.time, state.playing), ("disk-3", Stage::Tuning, 6.28, false));
+    assert_eq!((state.preset.as_str(), state.stage, state.time, state.playing), ("disk-3", Stage::Tuning, 6.27, false));
     assert_eq!((state.scenario.seed, state.scenario.detection.xi2), (7, Threshold::OFF));
     assert_eq!((state.speed, state.looping, state.tuning.repeats, state.tuning.wish), (0.5, false, 400, 0.1));
     page.run_steps(2);
@@ -170,11 +170,13 @@ fn back_and_forward_restore() {
 #[test]
 fn a_broken_link_is_told_in_the_page_s_words() {
     for size in [DESK, PHONE] {
-        let mut page =
-            page_at(size, "preset=bench&contact.disk=9&filter.length=0.5&bogus=1&motion.end=300&seed=7&t=6.28");
+        let mut page = page_at(
+            size,
+            "preset=bench&contact.disk=9&filter.length=0.5&bogus=1&detection.xi2=-1&motion.end=300&seed=7&t=6.27",
+        );
         page.run_steps(2);
         let state = app(&page).state().clone();
-        assert_eq!((state.scenario.seed, state.time, state.scenario.motion.end), (7, 6.28, 10.0), "the rest is taken");
+        assert_eq!((state.scenario.seed, state.time, state.scenario.motion.end), (7, 6.27, 10.0), "the rest is taken");
         assert!(page.query_by_label("This link could not be read whole").is_some());
         for said in [
             "contact.disk=9",
@@ -183,6 +185,7 @@ fn a_broken_link_is_told_in_the_page_s_words() {
             "bogus=1",
             "Unknown key bogus; known are: preset, loop_rate, seed",
             "filter.length=0.5",
+            "ξ2 (centrode) −1000.0",
             "Run ends 300.00 s: at most 200000 samples",
             "Used instead: Run ends 10\u{a0}s.",
         ] {
@@ -215,11 +218,11 @@ fn keys_belong_to_the_notice_while_it_is_open() {
 #[test]
 fn link_and_command_are_copied() {
     let mut page = paused(page_at(DESK, ""));
-    slide(&mut page, "Time", 6.28);
+    slide(&mut page, "Time", 6.27);
     slide(&mut page, "Contact disk", 3.0);
     click(&mut page, "Share");
     let link = copy(&mut page, Role::MenuItem, "Copy link");
-    assert_eq!(link, format!("{ADDRESS}#preset=bench&contact.disk=3&t=6.28"));
+    assert_eq!(link, format!("{ADDRESS}#preset=bench&contact.disk=3&t=6.27"));
     page.run_steps(2);
     assert!(page.query_by_label("Link copied").is_some());
     page.run_steps(40);

@@ -122,3 +122,15 @@ fn help() {
     click(&mut page, "Help");
     compare(&mut page, "help-phone-light");
 }
+
+#[test]
+fn sharing_and_a_notice() {
+    let mut page = page(DESK, Dark, 6.6);
+    click(&mut page, "Share");
+    compare(&mut page, "share-desk-dark");
+    let mut page = self::page(PHONE, Light, 6.6);
+    let link = "preset=bench&contact.disk=9&detection.xi2=-1&bogus=1&t=6.27";
+    page.state_mut().as_mut().expect("built").go(link);
+    page.run_steps(2);
+    compare(&mut page, "notice-phone-light");
+}

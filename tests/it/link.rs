@@ -25,9 +25,9 @@ fn with(preset: &str, sets: &[&str]) -> Scenario {
 fn a_link_says_what_differs_from_its_preset() {
     let bench = find("bench").expect("a preset");
     let scenario = with("bench", &["contact.disk=3", "detection.xi2=0.005"]);
-    let page = Page { view: "tuning", time: Some(6.28), ..Page::default() };
+    let page = Page { view: "tuning", time: Some(6.27), ..Page::default() };
     let link = Link::new(bench, &scenario, page).expect("possible");
-    let text = "preset=bench&contact.disk=3&detection.xi2=0.005&view=tuning&t=6.28";
+    let text = "preset=bench&contact.disk=3&detection.xi2=0.005&view=tuning&t=6.27";
     assert_eq!(link.fragment().as_deref(), Ok(text));
     assert_eq!(whole(text), link);
     assert_eq!(whole(&format!("https://example.org/centrode/?test#{text}")), link);

@@ -21,10 +21,10 @@ fn a_linked_run_is_the_run_of_preset_and_overrides() {
     let sets = ["--set", "contact.disk=3", "--set", "detection.xi2=0.005", "--set", "seed=7"];
     let named: Vec<&str> = ["--preset", "disk-1"].into_iter().chain(sets).collect();
     let args = |first: &[&'static str], rest: &[&'static str]| [first, rest].concat();
-    let link = line(&[&["link"][..], &named, &["--view", "map", "--t", "6.28", PAGE]].concat());
+    let link = line(&[&["link"][..], &named, &["--view", "map", "--t", "6.27", PAGE]].concat());
     assert_eq!(
         link,
-        "https://example.org/centrode/?renderer=webgl#preset=disk-1&seed=7&contact.disk=3&detection.xi2=0.005&view=map&t=6.28"
+        "https://example.org/centrode/?renderer=webgl#preset=disk-1&seed=7&contact.disk=3&detection.xi2=0.005&view=map&t=6.27"
     );
     let by_name = json(&[&args(&["run", "--json"], &[])[..], &named].concat());
     assert_eq!(json(&["run", "--json", "--link", &link]), by_name);

@@ -3,7 +3,7 @@
 //! It says what differs from a preset, by the keys of the table, and then what the page shows of it:
 //! `#preset=bench&contact.disk=3&detection.xi2=0.005&view=tuning&t=6.28`. Numbers are in SI, lists have commas, and a key
 //! that is not there has the preset's value or the page's default. Reading order: [`page`] (the page's own keys),
-//! [`read`] (leniently, but telling all that was wrong), [`command`] (the same as a command line).
+//! `read` (leniently, but telling all that was wrong), `command` (the same as a command line).
 
 mod command;
 pub mod page;

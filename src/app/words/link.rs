@@ -61,10 +61,10 @@ pub fn no_link(why: &str) -> Notice {
     Notice { details: format!("{title}\n{text}"), title, text, rows: Vec::new() }
 }
 
-/// With a capital at its start, unless it starts with a key.
+/// With a capital at its start, unless it starts with a key or a symbol.
 fn sentence(text: &str) -> String {
     let first = text.split_whitespace().next().unwrap_or_default();
-    if first.contains(['.', '_', '=', '"']) {
+    if !first.starts_with(|c: char| c.is_ascii()) || first.contains(['.', '_', '=', '"']) {
         return text.into();
     }
     let mut letters = text.chars();
