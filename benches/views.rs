@@ -28,7 +28,7 @@ fn views(c: &mut Criterion) {
         b.iter(|| {
             context.run_ui(egui::RawInput::default(), |ui| {
                 let mut out = Vec::new();
-                ui.allocate_ui(vec2(1200.0, 240.0), |ui| plots(ui, &run, CURSOR, &mut state, &mut out));
+                ui.allocate_ui(vec2(1200.0, 240.0), |ui| plots(ui, (&run, 0), CURSOR, &mut state, &mut out));
             })
         });
     });

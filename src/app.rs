@@ -23,6 +23,7 @@ use std::collections::BTreeMap;
 
 use egui::{Rect, Ui, vec2};
 
+use centrode_core::detect::Method;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::keys::find;
@@ -214,7 +215,8 @@ impl App {
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
-        self.plots.otherwise = ["detection.xi2", "detection.xi1"].map(|key| self.state.otherwise_si(key, &self.base));
+        let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
+        self.plots.otherwise = Method::ALL.into_iter().map(otherwise).collect();
         let Self {
             state,
             base,
@@ -266,9 +268,9 @@ impl App {
                 let low = rect.width() < 796.0 && rect.height() < 430.0;
                 if low {
                     let area = egui::ScrollArea::vertical().auto_shrink(false);
-                    area.show(ui, |ui| plots::plots(ui, run, cursor, plots, out));
+                    area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));
                 } else {
-                    plots::plots(ui, run, cursor, plots, out);
+                    plots::plots(ui, (run, memo.version()), cursor, plots, out);
                 }
             }),
             Tab::Plane => {

@@ -52,6 +52,7 @@ pub struct Memo {
     wanted: Scenario,
     run: Run,
     trace: Trace,
+    version: u64,
     refusal: Option<Refusal>,
 }
 
@@ -63,7 +64,7 @@ impl Memo {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let run = simulate(&Scenario::default()).expect("the default scenario is possible");
-        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, refusal: None };
+        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, version: 0, refusal: None };
         memo.update(scenario);
         memo
     }
@@ -82,7 +83,9 @@ impl Memo {
                     (detection.armed_from, detection.min_speed)
                 };
                 let before = looks(&self.run);
-                if self.run.update(plan) > Anew::Events || looks(&self.run) != before {
+                let anew = self.run.update(plan);
+                self.version += 1;
+                if anew > Anew::Events || looks(&self.run) != before {
                     self.trace = Trace::new(&self.run);
                 }
             }
@@ -95,6 +98,12 @@ impl Memo {
     #[must_use]
     pub fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// A number that is another for every other run.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.version
     }
 
     /// Its loci.

@@ -11,6 +11,7 @@ mod tuning;
 pub mod viewport;
 
 use crate::app::charts::notation;
+use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::source::Source;
@@ -24,7 +25,6 @@ use crate::app::widgets::text;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
-use map::Picture;
 use tuning::TuningState;
 
 /// Space around the content.
@@ -36,7 +36,9 @@ const WIDE: f32 = 700.0;
 /// Pictures that are kept between frames.
 #[derive(Default)]
 pub struct StageState {
-    map: Option<Picture>,
+    figure: Option<Picture<u64>>,
+    estimates: Option<Picture<u64>>,
+    map: Option<Picture<map::Key>>,
     tuning: TuningState,
 }
 
@@ -99,8 +101,12 @@ pub fn stage(
         return;
     }
     match studies.found() {
-        Some((Found::Figure(shown), _)) => figure::figure(ui, body, shown, inputs),
-        Some((Found::Table(shown, rows), _)) => table::table(ui, body, shown, rows),
+        Some((Found::Figure(shown), version)) => {
+            figure::figure(ui, body, (shown, version), inputs, &mut state.figure);
+        }
+        Some((Found::Table(shown, rows), version)) => {
+            table::table(ui, body, (shown, rows, version), &mut state.estimates);
+        }
         Some((Found::Map(shown), version)) => map::map(ui, body, shown, version, inputs, &mut state.map, out),
         None => {
             text::paint(ui, body.center(), Align2::CENTER_CENTER, "Computing …", fonts::regular(13.5), theme.dim);

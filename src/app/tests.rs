@@ -63,5 +63,5 @@ fn plots_go_back_to_what_the_page_remembers() {
     app.apply(&ctx, &mut vec![Command::Set(xi2, 3.5), Command::Switch(xi2, false)]);
     // Nothing is painted: its textures are dropped.
     ctx.run_ui(egui::RawInput::default(), |ui| app.ui(ui)).textures_delta.clear();
-    assert_eq!(app.plots.otherwise[0], 0.0035);
+    assert_eq!(app.plots.otherwise[&Method::Fcd], 0.0035);
 }

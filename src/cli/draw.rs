@@ -88,7 +88,7 @@ pub fn write(file: &mut NewFile, chart: &Chart, format: Format) -> Result<(), Fa
 fn vectors(chart: &Chart) -> String {
     let single = chart.panels.len() < 2;
     let (size, text) = if single { (SINGLE, TEXT) } else { (SEVERAL, SMALL_TEXT) };
-    let drawing = layout(chart, &Page { size, text, words: true });
+    let drawing = layout(chart, &Page { words: true, pixel: 1.0 / f64::from(PIXELS), ..Page::screen(size, text) });
     let color = |ink: Ink| {
         let [r, g, b, _] = ink::color(ink, &Palette::LIGHT, false).to_bytes();
         [r, g, b]

@@ -115,14 +115,14 @@ impl Page<'_> {
 
     fn mark(&mut self, [x, y]: Point, form: Form, radius: f64, paint: Paint, edge: Ink) {
         let (fill, stroke) = match form {
-            Form::Triangle | Form::Dot => (self.paint("fill", paint), self.hex(edge)),
+            Form::Triangle | Form::Dot | Form::Diamond => (self.paint("fill", paint), self.hex(edge)),
             Form::Circle => (format!("fill=\"{}\"", self.hex(edge)), self.hex(paint.ink)),
             Form::Ring => ("fill=\"none\"".into(), self.hex(paint.ink)),
         };
         let wide = length(radius * form.stroke());
         let line = match form {
-            Form::Triangle => {
-                let outline = path(form.triangle([x, y], radius).into_iter());
+            Form::Triangle | Form::Diamond => {
+                let outline = path(form.corners([x, y], radius).into_iter());
                 format!(
                     "<path d=\"{outline}Z\" {fill} stroke=\"{stroke}\" stroke-width=\"{wide}\" paint-order=\"stroke\"/>"
                 )

@@ -27,6 +27,15 @@ impl Method {
         }
     }
 
+    /// The key of its threshold in a scenario.
+    #[must_use]
+    pub fn threshold_key(self) -> &'static str {
+        match self {
+            Self::Fcd => "detection.xi2",
+            Self::Jfd => "detection.xi1",
+        }
+    }
+
     /// Its statistic at an instant at `time` (s).
     #[must_use]
     pub fn statistic(self, judgement: &Judgement, time: f64, thresholds: &Thresholds) -> Statistic {

@@ -3,6 +3,8 @@
 //! Three disks are met one after the other and each experiment is repeated. The table says when the contact was
 //! detected, at which θL, and where along the backbone it was placed.
 
+pub mod chart;
+
 use super::seed::repeat_seed;
 use super::{Job, Progress};
 use crate::detect::alarm::Alarms;

@@ -88,11 +88,7 @@ impl Tuner {
             }
             return;
         };
-        let xi2 = scenario.detection.xi2.value();
-        if self.xi2 != xi2 {
-            self.xi2 = xi2;
-            self.version += 1;
-        }
+        self.xi2 = scenario.detection.xi2.value();
         let mut scenario = scenario.clone();
         // A study counts first alarms: what ends an event does not matter to it.
         let Thresholds { release, hold, .. } = Thresholds::default();

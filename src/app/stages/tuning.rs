@@ -8,6 +8,7 @@ mod lengths;
 mod words;
 
 use crate::app::charts::notation::job;
+use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::Inputs;
@@ -17,11 +18,11 @@ use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
+use centrode_core::study::tuning::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
-use egui::{Align2, Color32, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
-use lengths::Picture;
+use egui::{Align2, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
 
 /// From this width on the pictures stand two by two.
 const BESIDE: f32 = 700.0;
@@ -38,9 +39,8 @@ const REACH: f32 = 32.0;
 const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
 const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
 
-/// How a method is called, and its threshold, unit and size of that unit.
+/// How the threshold of a method is shown: symbol, unit and size of that unit.
 pub struct Named {
-    name: &'static str,
     symbol: &'static str,
     unit: &'static str,
     scale: f64,
@@ -50,26 +50,11 @@ pub struct Named {
 impl Named {
     fn of(method: Rule, study: &Study) -> Self {
         use centrode_core::scenario::Xi1Rule;
-        let name = match method {
-            Rule::Fcd => "Centrode",
-            Rule::Jfd => "Forces",
-            Rule::Or => "Either",
-            Rule::And => "Both",
-        };
         match (method, study.spec().scenario.detection.xi1_rule) {
-            (Rule::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
-            (Rule::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
-            _ => Self { name, symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
+            (Rule::Jfd, Xi1Rule::Constant) => Self { symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
+            (Rule::Jfd, Xi1Rule::Bound) => Self { symbol: "k", unit: "", scale: 1.0, decimals: 2 },
+            _ => Self { symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
         }
-    }
-}
-
-fn color(method: Rule, theme: &Theme) -> Color32 {
-    match method {
-        Rule::Fcd => theme.sensor,
-        Rule::Jfd => theme.force,
-        Rule::Or => theme.ink,
-        Rule::And => theme.dim,
     }
 }
 
@@ -88,7 +73,10 @@ struct Derived {
 #[derive(Default)]
 pub struct TuningState {
     derived: Option<Derived>,
-    picture: Option<Picture>,
+    operating: Option<Picture<curves::Key>>,
+    delay: Option<Picture<curves::Key>>,
+    places: Option<Picture<delays::Key>>,
+    lengths: Option<Picture<lengths::Key>>,
 }
 
 /// What the pictures are drawn from.
@@ -131,11 +119,17 @@ impl View<'_> {
 pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let Some((study, cells, version)) = inputs.tuner.shown() else { return };
-    let TuningState { derived, picture } = state;
+    let TuningState { derived, operating, delay, places, lengths } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
         *derived = Some(derive(study, cells, version, inputs));
     }
     let Some(derived) = derived else { return };
+    // The thresholds that are set move over the pictures, which stay.
+    let settings: Vec<Option<f64>> = Rule::ALL.iter().map(|&rule| inputs.tuner.setting(rule)).collect();
+    if derived.settings != settings {
+        derived.own = Rule::ALL.iter().map(|&rule| inputs.tuner.level(rule)).collect();
+        derived.settings = settings;
+    }
     let view = View { study, cells, tuning: inputs.tuning, derived, theme };
 
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("tuning"));
@@ -158,10 +152,10 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
             let step = vec2((width + GAP) * column as f32, (height + GAP) * row as f32);
             Rect::from_min_size(area.min + step, vec2(width, height))
         };
-        curves::operating(ui, place(0), &view, out);
-        curves::delay(ui, place(1), &view, out);
-        delays::histogram(ui, place(2), &view, out);
-        lengths::map(ui, place(3), &view, version, picture, out);
+        curves::operating(ui, place(0), &view, operating, out);
+        curves::delay(ui, place(1), &view, delay, out);
+        delays::histogram(ui, place(2), &view, version, places, out);
+        lengths::map(ui, place(3), &view, version, lengths, out);
         ui.add(Label::new(job(&command(inputs), 11.5, theme.dim)).wrap().selectable(true));
     };
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| all(ui));
@@ -203,7 +197,7 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
 /// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names = Rule::ALL.map(|method| Named::of(method, view.study).name);
+    let names = Rule::ALL.map(chart::name);
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
         ("Alarm by", names.to_vec(), tuning.method as usize, 280.0),
         (
@@ -304,10 +298,4 @@ fn taken(ui: &Ui, response: &Response, near: impl Fn(Pos2) -> bool) -> Option<Po
         return None;
     }
     (response.clicked() || response.dragged()).then_some(at)
-}
-
-/// A title above a picture.
-fn title(ui: &Ui, rect: Rect, text: &str, theme: &Theme) {
-    let at = rect.min + vec2(4.0, 0.0);
-    paint(ui, at, Align2::LEFT_TOP, text, fonts::strong(12.5), theme.ink);
 }

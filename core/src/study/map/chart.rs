@@ -5,6 +5,7 @@ use super::contour::contour;
 use crate::chart::notation::number;
 use crate::chart::ticks::Steps;
 use crate::chart::{self, Axis, Chart, Panel, Role, Rung, Series, Style};
+use crate::scenario::plan::PlannedContact;
 use crate::scenario::{Plan, Scenario};
 use crate::study::figure::words;
 
@@ -73,6 +74,21 @@ impl Kind {
 /// The chart of a map of the plan's motion; line and contact are the plan's own.
 #[must_use]
 pub fn chart(map: &Map, plan: &Plan) -> Chart {
+    let mut chart = without_contact(map, plan);
+    chart.panels.iter_mut().for_each(|panel| panel.series.extend(target(plan)));
+    chart
+}
+
+/// The contact of a plan, in both panels.
+#[must_use]
+pub fn target(plan: &Plan) -> Option<Series> {
+    let at = |contact: &PlannedContact| vec![[contact.bend, contact.arc_length]];
+    plan.contact().map(|contact| Series::new("", Role::Detection, Style::Targets, at(contact)))
+}
+
+/// The same chart without the contact, which does not change the map.
+#[must_use]
+pub fn without_contact(map: &Map, plan: &Plan) -> Chart {
     let scenario = plan.scenario();
     let detection = &scenario.detection;
     let made = words::caption(&[
@@ -124,9 +140,6 @@ fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
     });
     let (x, y) = (edges(&map.bends), edges(&map.arc_lengths));
     let angle = Axis { steps: Steps::Degrees, ..Axis::new("Bend at contact", "rad", "°", words::angle().scale) };
-    let target = |contact: &crate::scenario::plan::PlannedContact| {
-        Series::new("", Role::Detection, Style::Targets, vec![[contact.bend, contact.arc_length]])
-    };
     let rung = |(k, &y): (usize, &f64)| Rung { name: format!("disk {}", k + 1), y };
     Panel {
         title: kind.title().into(),
@@ -143,7 +156,6 @@ fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
             level,
             line,
         }),
-        series: plan.contact().map(target).into_iter().collect(),
         rungs: scenario.robot.disks.iter().enumerate().map(rung).collect(),
         ..Panel::new(
             Axis { range: Some(x), ..angle },

@@ -3,6 +3,10 @@
 //! Shares lie on an arcsine scale: both ends, where thresholds are chosen, are spread, and intervals from equally many runs are
 //! about equally wide everywhere.
 
+mod places;
+
+pub use places::places;
+
 use super::recommend::{Verdict, Wish};
 use super::watch::Rule;
 use super::{Point, Study};
