@@ -201,6 +201,8 @@ pub enum Style {
     Line,
     /// A thin line: what another is compared with.
     Thin,
+    /// A heavy line: where something truly is.
+    Heavy,
     /// A dashed line.
     Dashed,
     /// A triangle at each point.
@@ -224,6 +226,7 @@ impl Style {
         match self {
             Self::Line => "line",
             Self::Thin => "thin",
+            Self::Heavy => "heavy",
             Self::Dashed => "dashed",
             Self::Triangles => "triangles",
             Self::Circles => "circles",

@@ -398,7 +398,7 @@ mod tests {
         let series = vec![Series::new("", Role::Robot, Style::Line, points)];
         let panel = Panel { equal_scales: true, series, ..Panel::new(axis("x"), axis("y")) };
         let frame = of(panel, &page).frames[0];
-        assert!(frame.data.width() < 1.3 * frame.data.height(), "{:?}", frame.data);
+        assert!(frame.data.width() < 1.7 * frame.data.height(), "{:?}", frame.data);
         let [x, y] = [frame.x, frame.y].map(|scale| scale.per_point());
         assert!((x - y).abs() < 1e-9);
         let [left, right] = [frame.data.left, page.size[0] - frame.data.right];

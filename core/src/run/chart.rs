@@ -73,8 +73,6 @@ pub struct Curve {
     pub role: Role,
     /// How it is drawn.
     pub style: Style,
-    /// Whether it stands back behind the others.
-    pub faint: bool,
     /// Its value, SI; NaN where it is not defined.
     pub value: fn(&Sample, &Thresholds) -> f64,
 }
@@ -83,33 +81,30 @@ pub struct Curve {
 #[must_use]
 pub fn curves(method: Method, thresholds: &Thresholds) -> Vec<Curve> {
     let Measure { symbol, role, .. } = measure(method);
-    let judged = |value| Curve { name: symbol, role, style: Style::Line, faint: false, value };
+    let judged = |value| Curve { name: symbol, role, style: Style::Line, value };
     match method {
         Method::Fcd => vec![judged(|sample, _| sample.judgement.deviation)],
         Method::Jfd => {
             let follows = thresholds.xi1_rule == Xi1Rule::Bound && thresholds.xi1.value().is_some();
-            let (style, faint) = if follows { (Style::Thin, false) } else { (Style::Dashed, true) };
+            let style = if follows { Style::Thin } else { Style::Dashed };
             vec![
                 judged(|sample, _| sample.judgement.residual),
                 Curve {
                     name: "k·ε_c",
                     role,
                     style,
-                    faint,
                     value: |sample, thresholds| thresholds.xi1_factor * sample.judgement.shape_bound,
                 },
                 Curve {
                     name: "ε_c",
                     role: Role::Aside,
                     style: Style::Thin,
-                    faint: false,
                     value: |sample, _| sample.judgement.common_bound,
                 },
                 Curve {
                     name: "ε_c indep.",
                     role: Role::Aside,
                     style: Style::Dashed,
-                    faint: false,
                     value: |sample, _| sample.judgement.independent_bound,
                 },
             ]
@@ -139,9 +134,9 @@ pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
     panel.spans.extend(held(run, true));
     let mut all = curves(method, thresholds).into_iter();
     let judged = all.next();
-    for Curve { name, role, style, faint, value } in all {
+    for Curve { name, role, style, value } in all {
         let points = run.samples().map(|sample| [sample.time, value(&sample, thresholds)]).collect();
-        panel.series.push(Series { faint, ..Series::new(name, role, style, points) });
+        panel.series.push(Series::new(name, role, style, points));
     }
     for (faint, counts) in [(true, false), (false, true)] {
         let Some(Curve { name, value, .. }) = judged else { continue };

@@ -13,11 +13,13 @@ const MARGIN: f64 = 0.05;
 const SHARES: f64 = 0.04;
 /// Least distances of marks along both axes, in sizes of the text.
 const APART: [f64; 2] = [5.6, 2.9];
+/// The same in a row of plots, whose numbers are times.
+const IN_LINE: [f64; 2] = [4.4, 2.9];
 /// The same on an axis of shares, whose marks are short.
 const SHARES_APART: [f64; 2] = [2.3, 1.5];
 /// Data of one scale for both axes are at most this many times as wide, against their height, as what they show, and so many.
 const SPARE: f64 = 1.3;
-const SQUARE: f64 = 1.2;
+const SQUARE: f64 = 1.6;
 /// Width of a map's bar and of the space before it.
 const BAR: [f64; 2] = [0.9, 0.8];
 
@@ -107,7 +109,11 @@ fn sparse(marks: Vec<Tick>, scale: &Scale, t: f64, given: bool) -> Vec<Tick> {
 
 impl Pen<'_> {
     fn marks_of(&self, axis: &Axis, scale: &Scale, which: usize) -> Vec<Tick> {
-        let apart = if axis.steps == Steps::Shares { SHARES_APART } else { APART };
+        let apart = match axis.steps {
+            Steps::Shares => SHARES_APART,
+            _ if self.page.sides.is_some() => IN_LINE,
+            _ => APART,
+        };
         let marks = marks(axis, scale, apart[which] * self.t);
         if which == 0 { sparse(marks, scale, self.t, !axis.ticks.is_empty()) } else { marks }
     }

@@ -13,6 +13,8 @@ const BAND: f64 = 0.15;
 pub(super) const VEIL: f64 = 0.55;
 /// Opacity of a curve that stands back, and of its band.
 const FAINT: f64 = 0.6;
+/// The same in a row of plots, whose curves are rough.
+const PALE: f64 = 0.4;
 /// Marks of one row stand at least this far apart, in sizes of the text.
 const CROWDED: f64 = 0.87;
 /// A curve with this many points to a column of pixels is drawn by its columns.
@@ -106,7 +108,7 @@ impl Pen<'_> {
 
     /// The columns of pixels of a curve that has many more points than there are columns; heights are places, points.
     fn dense(&self, series: &Series, frame: &Frame) -> Option<Vec<Vec<Column>>> {
-        let line = matches!(series.style, Style::Line | Style::Thin | Style::Dashed);
+        let line = matches!(series.style, Style::Line | Style::Thin | Style::Heavy | Style::Dashed);
         let many = series.points.len() as f64 > MANY * frame.data.width() / self.page.pixel;
         let rises = || series.points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
         (line && many && rises()).then(|| self.columns(series, frame))
@@ -137,8 +139,15 @@ impl Pen<'_> {
 
     fn curve(&mut self, series: &Series, points: &[Point], frame: &Frame) {
         let t = self.t;
-        let paint = Paint { ink: Ink::Role(series.role), opacity: if series.faint { FAINT } else { 1.0 } };
-        let wide = if series.faint || series.style == Style::Thin { 0.1 * t } else { 0.13 * t };
+        let faint = if self.page.sides.is_some() { PALE } else { FAINT };
+        let paint = Paint { ink: Ink::Role(series.role), opacity: if series.faint { faint } else { 1.0 } };
+        let wide = match series.style {
+            Style::Heavy => 0.27 * t,
+            Style::Thin => 0.1 * t,
+            Style::Dashed if self.page.sides.is_some() => 0.09 * t,
+            _ if series.faint => 0.1 * t,
+            _ => 0.13 * t,
+        };
         let dash = (series.style == Style::Dashed).then_some([0.5 * t, 0.32 * t]);
         for part in frame.data.inside(points) {
             self.line(&part, paint, wide, dash);
@@ -188,7 +197,7 @@ impl Pen<'_> {
     fn series(&mut self, series: &Series, points: &[Point], frame: &Frame, edge: Ink) {
         let t = self.t;
         let form = match series.style {
-            Style::Line | Style::Thin | Style::Dashed => {
+            Style::Line | Style::Thin | Style::Heavy | Style::Dashed => {
                 self.curve(series, &thinned(points, SAME * t), frame);
                 return;
             }

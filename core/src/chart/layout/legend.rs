@@ -81,6 +81,9 @@ impl Pen<'_> {
         let line = [[x - 1.15 * t, y], [x + 1.15 * t, y]];
         match sign {
             Sign::Series(Style::Line, role) => self.line(&line, Ink::Role(role), 0.16 * t, None),
+            Sign::Series(Style::Heavy, role) => {
+                self.line(&[[x, y - 0.6 * t], [x, y + 0.6 * t]], Ink::Role(role), 0.27 * t, None);
+            }
             Sign::Series(Style::Thin, role) => self.line(&line, Ink::Role(role), 0.1 * t, None),
             Sign::Series(Style::Dashed, role) | Sign::Vertical(role) => {
                 self.line(&line, Ink::Role(role), 0.13 * t, Some([0.46 * t, 0.3 * t]));

@@ -2,7 +2,8 @@
 
 use super::{Disk, Outcome, Row, Table2, paper_rows};
 use crate::chart::{Axis, Chart, Intervals, Panel, Role, Series, Style};
-use crate::study::figure::words::MILLI;
+use crate::scenario::Scenario;
+use crate::study::figure::words::{self, MILLI};
 
 /// Where the paper's estimates and the simulated ones stand in a lane, and their means, from its middle and in its heights.
 const MARKS: [f64; 2] = [-0.16, 0.16];
@@ -55,11 +56,11 @@ pub fn chart(table: &Table2, estimates: &[Estimate]) -> Chart {
         let y = lane as f64;
         truths.extend([[disk.arc_length, y - TRUTH], [disk.arc_length, y + TRUTH], [f64::NAN; 2]]);
     }
-    panel.series.push(Series::new("true place of the disk", Role::Contact, Style::Line, truths));
+    panel.series.push(Series::new("true place of the disk", Role::Contact, Style::Heavy, truths));
     for (name, of_paper, style) in [("paper", true, Style::Diamonds), ("simulated", false, Style::Dots)] {
         let points = estimates.iter().filter(|estimate| estimate.of_paper == of_paper).map(|estimate| estimate.at);
         let series = Series::new(name, Role::Detection, style, points.collect());
-        panel.series.push(Series { every: true, faint: !of_paper, ..series });
+        panel.series.push(Series { every: true, ..series });
     }
     let mean = |(lane, disk): (usize, &Disk), lift: f64| {
         let at = |location: f64| [location, lane as f64 + lift];
@@ -73,10 +74,27 @@ pub fn chart(table: &Table2, estimates: &[Estimate]) -> Chart {
     Chart { title: "Estimated places of contact".into(), panels: vec![panel], caption: String::new() }
 }
 
+/// The same for a file, with what it was made with: `repeats` experiments of a scenario on each disk.
+#[must_use]
+pub fn with_words(table: &Table2, rows: &[Row], (scenario, repeats): (&Scenario, usize)) -> Chart {
+    let made = [
+        words::robot(scenario),
+        words::motion(scenario),
+        words::tracker(scenario),
+        words::detection(scenario),
+        words::seed(scenario, repeats),
+    ];
+    let made = made.join("; ");
+    let caption = format!(
+        "The paper's estimates are the rows of its Table II. Simulated by Centrode, with contact as in the presets disk-1, bench \
+         and disk-3: {made}."
+    );
+    Chart { caption, ..chart(table, &estimates(table, rows)) }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scenario::Scenario;
     use crate::study::Job;
     use crate::study::table2::Table2Job;
 

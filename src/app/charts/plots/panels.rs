@@ -39,9 +39,8 @@ pub fn threshold(method: Method, scenario: &Scenario, otherwise: f64) -> f64 {
 }
 
 /// The colour of a curve.
-fn color(role: Role, faint: bool, theme: &Theme) -> Color32 {
-    let color = paint::color(Ink::Role(role), theme);
-    if faint { color.gamma_multiply(0.6) } else { color }
+fn color(role: Role, theme: &Theme) -> Color32 {
+    paint::color(Ink::Role(role), theme)
 }
 
 /// What a detector judges, with its threshold and its events.
@@ -52,7 +51,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     let Measure { name, symbol, scale, unit, decimals, role, .. } = measure(method);
     let curves = curves(method, &scenario.detection);
     let value = |curve: &Curve, sample: &Sample| (curve.value)(sample, &scenario.detection) * scale;
-    let ink = |curve: &Curve| color(curve.role, curve.faint, &theme);
+    let ink = |curve: &Curve| color(curve.role, &theme);
     let now = run.sample_at(view.cursor);
     let readout = |curve: &Curve| ReadOut {
         name: if curves.len() > 1 { curve.name } else { "" },
@@ -77,7 +76,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     }
     let (threshold, judges) = set(method, scenario);
     let otherwise = view.otherwise(method);
-    let line = Line { measure: measure(method), threshold, otherwise, color: color(role, false, &theme), judges };
+    let line = Line { measure: measure(method), threshold, otherwise, color: color(role, &theme), judges };
     let outcome = view.threshold(ui, &line);
     view.hold(method, outcome.moving);
     view.out.extend(outcome.changed.map(|to| change(method, to)));

@@ -29,9 +29,9 @@ pub fn map(
 ) {
     let heading = "Median delay by filter length and threshold";
     let step = step(view);
-    // Rows up to the threshold that is set: its dot moves over a map that stays.
+    // Rows up to the threshold that is set, and some more: its dot moves over a map that stays.
     let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
-    let least = (own + own / 8).clamp(ROWS[0], ROWS[1]);
+    let least = (own + own / 8).next_multiple_of(ROWS[0]).clamp(ROWS[0], ROWS[1]);
     let at = |length: u64, threshold: f64| {
         let column = view.cells.lengths.iter().position(|(other, _)| *other == length)?;
         Some([column as f64, threshold])

@@ -1,7 +1,6 @@
 //! When contact is found at each place: a histogram of the delays in a lane of its own, with those that alarm before and those
 //! missed.
 
-use super::MARGIN;
 use super::look;
 use crate::chart::notation::number;
 use crate::chart::{Aside, Axis, Bars, Intervals, Panel, Role, Vertical};
@@ -30,7 +29,7 @@ pub fn places(
     median: Option<f64>,
     late: f64,
 ) -> Panel {
-    let x = Axis { range: Some([0.0, late * (1.0 + MARGIN)]), ..Axis::new("Delay after contact", "s", "s", 1.0) };
+    let x = Axis { range: Some([0.0, late]), ..Axis::new("Delay after contact", "s", "s", 1.0) };
     let y = Axis::categories("", places.iter().map(|(name, _)| name.clone()), true);
     let mut panel = Panel { title: "Delay by place of contact".into(), ..Panel::new(x, y) };
     let (mut corners, mut medians) = (Vec::new(), Vec::new());
@@ -45,7 +44,7 @@ pub fn places(
         let at = |delay: f64| [delay, lane + MEDIAN];
         if !seen.median.is_nan() {
             // An interval that is open at its upper end reaches to the end of the axis.
-            let high = if seen.median_high.is_nan() { late * (1.0 + MARGIN) } else { seen.median_high };
+            let high = if seen.median_high.is_nan() { late } else { seen.median_high };
             medians.push([at(seen.median_low), at(seen.median), at(high)]);
         }
         panel.asides.push(Aside { y: lane, lines: words(&seen) });
