@@ -1,7 +1,8 @@
 //! `centrode table2`: the paper's Table II beside a simulated one.
 
 use super::ScenarioArgs;
-use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
+use super::output::{Failure, NewFile, finish_csv, json, write_record};
+use centrode_core::chart::csv::cell;
 use centrode_core::scenario::Scenario;
 use centrode_core::study::Job;
 use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
