@@ -229,7 +229,7 @@ fn what_cannot_be_shown_is_refused_in_the_units_of_the_page() {
         let said = format!("{} cannot be shown: robot.disks[2] = 22.5 mm is not allowed: ", shown.name());
         let refusal = refused(shown, short.clone());
         assert!(refusal.starts_with(&said) && refusal.contains("robot.length = 20 mm"), "{refusal}");
-        let said = format!("{} cannot be shown: Contact bend 401.07 °: ", shown.name());
+        let said = format!("{} cannot be shown: Contact bend 401.07°: ", shown.name());
         let refusal = refused(shown, bent.clone());
         let own = matches!(shown, Stage::Table2 | Stage::Map);
         assert!(own || refusal.starts_with(&said), "{refusal}");
