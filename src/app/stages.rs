@@ -22,6 +22,7 @@ use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
+use crate::app::words::refusal;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
@@ -91,7 +92,7 @@ pub fn stage(
         body.min.y += source::LINE + 6.0;
     }
     if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
-        let said = format!("{} cannot be shown: {refused}.", inputs.stage.name());
+        let said = format!("{} cannot be shown: {}.", inputs.stage.name(), refusal::told(&refused.clone().into()));
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(body).id_salt("refused"));
         inner.add(egui::Label::new(notation::job(&said, 13.5, theme.error)).wrap());
         return;

@@ -162,7 +162,7 @@ impl StudyArgs {
         if partial {
             let progress = study.progress();
             let line =
-                format!("interrupted after {} of {} runs; what is written is partial", progress.done, progress.of);
+                format!("interrupted after {} of {} runs; the results written are partial", progress.done, progress.of);
             return Err(Failure::Interrupted(line));
         }
         Ok(())

@@ -2,7 +2,8 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Format};
-use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
+use super::output::{Failure, NewFile, finish_csv, json, write_record};
+use centrode_core::chart::csv::cell;
 use centrode_core::scenario::Scenario;
 use centrode_core::study::Job;
 use centrode_core::study::table2::chart::with_words;

@@ -169,6 +169,6 @@ fn without_a_contact_there_is_nothing_to_advise() {
     slide(&mut page, "Contact disk", 0.0);
     finish(&mut page);
     assert!(!said(&page, "There is no contact to detect").is_empty());
-    assert!(!said(&page, "Set a contact to be advised").is_empty());
+    assert!(!said(&page, "Set a contact to get a recommendation").is_empty());
     assert!(page.query_by_role_and_label(Role::Button, "Take it").is_none());
 }

@@ -3,7 +3,8 @@
 use super::{Axis, Chart, Panel, Role};
 
 /// A number as it is read back; what is not defined stays empty.
-fn cell(value: f64) -> String {
+#[must_use]
+pub fn cell(value: f64) -> String {
     if value.is_nan() { String::new() } else { value.to_string() }
 }
 

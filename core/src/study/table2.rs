@@ -210,7 +210,7 @@ impl Table2Job {
         Plan::new(base)?;
         let count = base.robot.disks.len();
         if count < PRESETS.len() {
-            let allowed = Allowed::Need("at least three disks, for Table II compares disks 1, 2 and 3");
+            let allowed = Allowed::Need("at least three disks are needed, because Table II compares disks 1, 2 and 3");
             let disks = Value::List(base.robot.disks.clone());
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }

@@ -1,6 +1,6 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
-use centrode_core::scenario::{Place, Scenario, Threshold, Thresholds};
+use centrode_core::scenario::{Place, Scenario, ScenarioError, Threshold, Thresholds};
 use centrode_core::study::tuning::remote::{Answer, Request};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study, xi1_setting};
@@ -54,7 +54,7 @@ pub struct Tuner {
     asked: bool,
     held: bool,
     version: u64,
-    refused: Option<String>,
+    refused: Option<ScenarioError>,
     /// ξ2 that is set, m. No part of the study, which judges every run by a whole row of thresholds: moving it costs no run.
     xi2: Option<f64>,
     /// Why the helper was given up.
@@ -84,6 +84,7 @@ impl Tuner {
     pub fn update(&mut self, scenario: Option<&Scenario>, repeats: usize) {
         let Some(scenario) = scenario else {
             if self.inputs.take().is_some() {
+                self.refused = None;
                 self.rest();
             }
             return;
@@ -116,7 +117,7 @@ impl Tuner {
             }
             Err(refused) => {
                 self.before = None;
-                self.refused = Some(refused.to_string());
+                self.refused = Some(refused);
             }
         }
         self.version += 1;
@@ -239,8 +240,8 @@ impl Tuner {
 
     /// Why there is nothing to see.
     #[must_use]
-    pub fn refused(&self) -> Option<&str> {
-        self.refused.as_deref()
+    pub fn refused(&self) -> Option<&ScenarioError> {
+        self.refused.as_ref()
     }
 
     /// Why the helper was given up, if it was.

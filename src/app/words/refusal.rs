@@ -49,7 +49,7 @@ fn label(control: &Control, key: &str) -> &'static str {
 }
 
 fn with_unit(si: f64, quantity: Quantity, decimals: usize) -> String {
-    format!("{} {}", number(quantity.shown(si), decimals), quantity.unit()).trim_end().into()
+    Quantity::joined(&number(quantity.shown(si), decimals), quantity.unit())
 }
 
 #[cfg(test)]
@@ -65,7 +65,7 @@ mod tests {
             ("contact.disk", "9", "Contact disk 9: a disk from 1 to 3, the robot's spacer disks, or 0 for no contact"),
             ("contact.disk", "50 mm", "Contact place 50 mm: a number from 0 mm to robot.length = 30 mm"),
             ("contact.time", "-1", "Contact time −1.00 s: a finite number, 0 s or more"),
-            ("contact.time", "400°", "Contact bend 400.00 °: a finite angle, less than one turn (360 °) from straight"),
+            ("contact.time", "400°", "Contact bend 400.00°: a finite angle, less than one turn (360°) from straight"),
             ("tracker.position_noise", "-1", "Position noise −1.000 mm: a number from 0 mm to 1000 mm"),
             ("load_cells.epsilon_tau", "100", "Load cell error ε_τ 100.0 %: from 0 % to below 100 %"),
             ("detection.xi1", "-5", "ξ1 (joint force) −5.0 mN·m: a finite number, 0 mN·m or more, or \"off\""),

@@ -1,6 +1,7 @@
 //! Every threshold of every cell as CSV.
 
-use crate::cli::output::{Failure, NewFile, cell, finish_csv, write_record};
+use crate::cli::output::{Failure, NewFile, finish_csv, write_record};
+use centrode_core::chart::csv::cell;
 use centrode_core::study::tuning::Study;
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::watch::Rule;

@@ -156,7 +156,7 @@ impl Allowed {
             }
             Self::Threshold => format!("a finite number, {} or more, or \"off\"", amount(0.0)),
             Self::Vector(most) => format!("three numbers, [x, y, z], each from {} to {}", amount(-most), amount(most)),
-            Self::Disks => "a list of rising arc lengths, above 0 and at most robot.length".into(),
+            Self::Disks => "a list of arc lengths in rising order, each above 0 and at most robot.length".into(),
             Self::NextDisk { before, length } => format!(
                 "an arc length above the disk before it ({}) and at most robot.length = {}",
                 amount(before),
@@ -171,9 +171,9 @@ impl Allowed {
                 "a bend below length/pitch_radius = {}, or a secondary backbone would have no length left",
                 Quantity::Angle.amount(most, units)
             ),
-            Self::Disk(None) => "a whole number: that of a disk, or 0 for no contact".into(),
+            Self::Disk(None) => "the number of a disk, or 0 for no contact".into(),
             Self::Disk(Some(0)) => {
-                "0, no contact: the robot has no spacer disks (contact.arc_length needs none)".into()
+                "0 for no contact, because the robot has no spacer disks (contact.arc_length needs none)".into()
             }
             Self::Disk(Some(count)) => {
                 format!("a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact")
@@ -182,7 +182,7 @@ impl Allowed {
                 format!("a finite time above {}; a run has at most {MAX_SAMPLES:e} samples", amount(0.0))
             }
             Self::RunEnd(Some(rate)) => format!(
-                "a run of at most {MAX_SAMPLES:e} samples, at loop_rate = {} so at most {}",
+                "a run of at most {MAX_SAMPLES:e} samples, which at loop_rate = {} last {}",
                 Quantity::Frequency.amount(rate, units),
                 amount(MAX_SAMPLES / rate)
             ),
@@ -206,7 +206,7 @@ impl Allowed {
 fn turn(units: Units) -> &'static str {
     match units {
         Units::Si => "2π rad",
-        Units::Shown => "360 °",
+        Units::Shown => "360°",
     }
 }
 

@@ -84,7 +84,7 @@ pub fn reference() -> String {
     let mut out = String::from(
         "# The keys of a scenario\n\n\
          Written from the table of keys in `core/src/scenario/keys/table.rs`; a test keeps it current, and\n\
-         `UPDATE_SNAPSHOTS=1 cargo test --test it keys` writes it anew.\n\n\
+         `cargo xtask renew keys` writes it anew.\n\n\
          A scenario is a TOML file in SI units and radians; a missing key has its default. `centrode scenario` prints a file\n\
          with every key, and `--set KEY=VALUE` overrides one. The page shows lengths in mm, angles in °, moments in mN·m,\n\
          moduli in GPa and shares in %. Defaults marked with * are illustrative: the paper gives none.\n",

@@ -139,7 +139,7 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
             "No threshold with at most {wish} % false alarms detects half of the contacts in time; the best detects {} %.",
             percent(*best)
         ),
-        Verdict::NoContact => "Set a contact to be advised.".into(),
+        Verdict::NoContact => "Set a contact to get a recommendation.".into(),
     };
     (text, None)
 }
