@@ -68,7 +68,7 @@ fn one(painter: &Painter, row: Rect, view: &View<'_>, (name, cell): (&str, usize
     // Cells share their thresholds, but for an own one that only some have.
     let threshold = view.curve()[level].threshold;
     let Some(level) = view.study.levels(cell, method).iter().position(|&other| other == threshold) else { return };
-    let count = batch.tally.count(method, level);
+    let count = batch.counted(method, level).count;
     let heights = bars(count, batch.clock.rate);
     let most = heights.iter().copied().max().unwrap_or(0).max(1) as f32;
     let base = row.bottom() - 3.0;
