@@ -117,6 +117,12 @@ impl App {
         &self.notes
     }
 
+    /// The study behind the tuning view.
+    #[must_use]
+    pub fn tuner(&self) -> &Tuner {
+        &self.tuner
+    }
+
     /// Whether work for what is on the stage is left to do.
     #[must_use]
     pub fn is_working(&self) -> bool {
@@ -170,7 +176,9 @@ impl App {
             ui.ctx().request_repaint();
         }
         let scenario = self.memo.run().plan.scenario();
-        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats);
+        // A pointer or a key that is down may be moving a threshold.
+        let moving = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
+        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats, moving);
         let frame = ui.input(|input| input.stable_dt);
         if ui.ctx().current_pass_index() == 0 && self.tuner.work(frame) {
             ui.ctx().request_repaint();
@@ -216,7 +224,7 @@ impl App {
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
-        self.plots.otherwise = Method::ALL.into_iter().map(otherwise).collect();
+        self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
         let Self {
             state,
             base,

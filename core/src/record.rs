@@ -55,6 +55,13 @@ impl Truth {
     }
 }
 
+/// The truth in configurations that are commanded one after the other and held still, before any load.
+#[must_use]
+pub fn held_still(plan: &Plan, configurations: impl IntoIterator<Item = Configuration>) -> Vec<Truth> {
+    let plant = Plant::new(plan);
+    configurations.into_iter().map(|configuration| Truth::of(&plant, configuration, 0.0)).collect()
+}
+
 /// An experiment as it was stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {

@@ -8,7 +8,6 @@ pub mod map;
 pub mod seed;
 pub mod shared;
 pub mod table2;
-pub mod truth;
 pub mod tuning;
 
 /// Work in pieces of a few milliseconds.

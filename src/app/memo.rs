@@ -1,49 +1,22 @@
 //! Scenario → recording → conclusions → loci, each made anew when what it depends on changes.
 
-use thiserror::Error;
-
 use crate::show::track::Trace;
-use centrode_core::run::{Anew, Run, simulate};
+use centrode_core::run::{Anew, Run, at_most, simulate};
 use centrode_core::scenario::{Plan, Scenario, ScenarioError};
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
 pub const MAX_SAMPLES: usize = 200_000;
 
-/// Why a scenario is not run.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Refusal {
-    /// It is impossible.
-    #[error(transparent)]
-    Impossible(#[from] ScenarioError),
-    /// It is too long for a page.
-    #[error(
-        "motion.end = {end} s at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}"
-    )]
-    TooLong {
-        /// `motion.end`, s.
-        end: f64,
-        /// `loop_rate`, Hz.
-        rate: f64,
-        /// Samples it would have.
-        samples: usize,
-    },
-}
-
 /// Whether the page can run a scenario.
 ///
 /// # Errors
-/// Why not.
-pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
+/// Why not: an impossible value, or a run that is too long for a page.
+pub fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
     plan(scenario).map(drop)
 }
 
-fn plan(scenario: &Scenario) -> Result<Plan, Refusal> {
-    let plan = Plan::new(scenario)?;
-    let samples = plan.samples();
-    if samples > MAX_SAMPLES {
-        return Err(Refusal::TooLong { end: scenario.motion.end, rate: scenario.loop_rate, samples });
-    }
-    Ok(plan)
+fn plan(scenario: &Scenario) -> Result<Plan, ScenarioError> {
+    at_most(Plan::new(scenario)?, MAX_SAMPLES)
 }
 
 /// The last run that was possible, and why the wanted one is not.
@@ -53,7 +26,7 @@ pub struct Memo {
     run: Run,
     trace: Trace,
     version: u64,
-    refusal: Option<Refusal>,
+    refusal: Option<ScenarioError>,
 }
 
 impl Memo {
@@ -114,7 +87,7 @@ impl Memo {
 
     /// Why the wanted scenario is not the one that was run.
     #[must_use]
-    pub fn refusal(&self) -> Option<&Refusal> {
+    pub fn refusal(&self) -> Option<&ScenarioError> {
         self.refusal.as_ref()
     }
 }

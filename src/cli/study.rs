@@ -7,10 +7,11 @@ mod work;
 use super::ScenarioArgs;
 use super::draw::{self, Format};
 use super::output::{Failure, NewFile, json};
-use centrode_core::scenario::Scenario;
-use centrode_core::scenario::Xi1Rule;
+use centrode_core::detect::Method;
+use centrode_core::scenario::{Override, Scenario, Xi1Rule};
 use centrode_core::study::Job;
 use centrode_core::study::tuning::chart::chart;
+use centrode_core::study::tuning::levels::Levels;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::sweep::{Sweep, SweepError, combinations};
 use centrode_core::study::tuning::watch::Rule;
@@ -90,7 +91,7 @@ struct Report<'a> {
 #[derive(Debug, Serialize)]
 struct CellReport<'a> {
     /// What it changes in the scenario.
-    set: &'a [String],
+    set: &'a [Override],
     runs_free: u64,
     /// Null without a contact.
     runs_contact: Option<u64>,
@@ -123,7 +124,7 @@ struct Recommendation<'a> {
     #[serde(flatten)]
     verdict: &'a Verdict,
     /// What the cell to take changes in the scenario, and its filter length.
-    set: Option<&'a [String]>,
+    set: Option<&'a [Override]>,
     filter_length: Option<u64>,
 }
 
@@ -169,15 +170,15 @@ impl StudyArgs {
     }
 
     fn spec(&self, scenario: &Scenario) -> Result<Spec, Failure> {
-        let (mut xi2, mut xi1) = (None, None);
-        let mut others = Vec::new();
+        let mut levels = Levels::default();
+        let (mut others, mut seen) = (Vec::new(), Vec::new());
         let rule = scenario.detection.xi1_rule;
         for text in &self.sweeps {
             let refused = |error: SweepError| Failure::Input(format!("--sweep {text}: {error}"));
             let sweep: Sweep = text.parse().map_err(refused)?;
-            let levels = match (sweep.key.as_str(), rule) {
-                ("detection.xi2", _) => &mut xi2,
-                ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => &mut xi1,
+            let detector = match (sweep.key.as_str(), rule) {
+                ("detection.xi2", _) => Method::Fcd,
+                ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => Method::Jfd,
                 ("detection.xi1" | "detection.xi1_factor", _) => {
                     let other = if rule == Xi1Rule::Constant { "detection.xi1" } else { "detection.xi1_factor" };
                     let line = format!("--sweep {text}: this detection.xi1_rule does not use it; sweep {other}");
@@ -188,13 +189,14 @@ impl StudyArgs {
                     continue;
                 }
             };
-            if levels.is_some() {
+            if seen.contains(&detector) {
                 return Err(refused(SweepError::Twice(sweep.key)));
             }
-            *levels = Some(sweep.levels().map_err(refused)?);
+            seen.push(detector);
+            levels.put(detector, sweep.levels().map_err(refused)?);
         }
         let cells = combinations(&others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
-        Ok(Spec { scenario: scenario.clone(), repeats: self.repeats, late: self.late, cells, xi2, xi1 })
+        Ok(Spec { late: self.late, cells, levels, ..Spec::of(scenario.clone(), self.repeats) })
     }
 }
 
@@ -234,7 +236,7 @@ fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool)
 /// Whether the cells differ in nothing but what can be tuned: filter and detection.
 fn is_tuned(study: &Study) -> bool {
     let mut sets = study.cells().iter().flat_map(|cell| &cell.set);
-    sets.all(|set| set.starts_with("filter.") || set.starts_with("detection."))
+    sets.all(|set| set.path().starts_with("filter.") || set.path().starts_with("detection."))
 }
 
 /// Without the points between two that say the same.

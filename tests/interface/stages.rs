@@ -202,7 +202,7 @@ fn refused(shown: Stage, scenario: Scenario) -> String {
     let tuning = shown == Stage::Tuning;
     let page = Harness::builder().with_size(DESK).build_ui(move |ui| {
         centrode::app::theme::install(ui.ctx());
-        tuner.update(tuning.then_some(&scenario), 5);
+        tuner.update(tuning.then_some(&scenario), 5, false);
         studies.update(shown, &scenario);
         let (base, tuner) = (("paper", &scenario), &tuner);
         let inputs = Inputs { stage: shown, run: &run, base, source: None, tuner, tuning: Tuning::default() };

@@ -10,8 +10,8 @@ use std::process::{Command, Stdio};
 
 fn library(repeats: usize, cells: &[&[&str]]) -> Study {
     let scenario = find("bench").and_then(|preset| preset.scenario()).expect("bench");
-    let cells = cells.iter().map(|cell| cell.iter().map(ToString::to_string).collect()).collect();
-    let mut study = Study::new(Spec { scenario, repeats, late: 1.0, cells, xi2: None, xi1: None }).expect("a study");
+    let cells = cells.iter().map(|cell| cell.iter().map(|set| set.parse().expect(set)).collect()).collect();
+    let mut study = Study::new(Spec { cells, ..Spec::of(scenario, repeats) }).expect("a study");
     study.finish();
     study
 }
@@ -22,7 +22,7 @@ fn json_holds_the_library_s_study() {
     let theirs = library(9, &[&["filter.length=300"], &["filter.length=600"]]);
     assert_eq!(ours["partial"], false);
     for cell in 0..2 {
-        for method in Rule::ALL {
+        for &method in Rule::ALL {
             let point = theirs.own(cell, method).map(|level| theirs.point(cell, method, level));
             let expected = serde_json::to_value(point).expect("JSON");
             assert_eq!(ours["cells"][cell]["own"][method.name()], expected, "{cell} {method:?}");

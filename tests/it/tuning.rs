@@ -20,8 +20,8 @@ fn noisy(sets: &[&str]) -> Scenario {
 }
 
 fn study(scenario: &Scenario, repeats: usize, cells: &[&[&str]]) -> Study {
-    let cells = cells.iter().map(|cell| cell.iter().map(ToString::to_string).collect()).collect();
-    let spec = Spec { scenario: scenario.clone(), repeats, late: 1.0, cells, xi2: None, xi1: None };
+    let cells = cells.iter().map(|cell| cell.iter().map(|set| set.parse().expect(set)).collect()).collect();
+    let spec = Spec { cells, ..Spec::of(scenario.clone(), repeats) };
     Study::new(spec).expect("a study")
 }
 
@@ -82,7 +82,7 @@ fn one_pass_gives_what_a_run_with_each_threshold_gives() {
         let firsts = study.run((batch, repeat));
         let levels = study.batches()[batch].levels.clone();
         let seed = repeat_seed(base.seed, repeat);
-        for method in Rule::ALL {
+        for &method in Rule::ALL {
             let values = method.levels(&levels);
             // The smallest, the largest, and some between.
             for level in (0..values.len()).step_by(17).chain([values.len() - 1]) {
@@ -96,7 +96,7 @@ fn one_pass_gives_what_a_run_with_each_threshold_gives() {
                     continue;
                 }
                 let expected = first_alarm(&scenario, method);
-                let found = firsts[method as usize][level];
+                let found = firsts.alarms[method as usize][level];
                 assert_eq!(found, expected, "{sets:?} {method:?} at {}", values[level]);
             }
         }
@@ -112,7 +112,7 @@ fn the_first_alarm_is_the_first_crossing_of_the_run() {
     for (lamp, method) in [(Lamp::Fcd, Rule::Fcd), (Lamp::Jfd, Rule::Jfd)] {
         let level = study.own(0, method).expect("its own threshold");
         let crossing = run.crossings().iter().find(|crossing| crossing.method == lamp).expect("an alarm");
-        assert_eq!(run.plan.time(firsts[method as usize][level] as usize), crossing.time);
+        assert_eq!(run.plan.time(firsts.alarms[method as usize][level] as usize), crossing.time);
     }
 }
 
@@ -160,7 +160,7 @@ fn without_noise_the_study_is_the_run() {
 fn higher_thresholds_are_quieter_and_later() {
     let mut study = study(&noisy(&[]), 20, &[&[]]);
     study.finish();
-    for method in Rule::ALL {
+    for &method in Rule::ALL {
         for pair in study.curve(0, method).windows(2) {
             assert!(pair[0].false_alarms.rate.count >= pair[1].false_alarms.rate.count, "{method:?}");
             let [low, high] = [&pair[0], &pair[1]].map(|point| point.detection.expect("contact"));
@@ -220,7 +220,7 @@ fn impossible_specs_are_refused() {
     let told = |spec: Spec| Study::new(spec).expect_err("refused").to_string();
     assert!(told(Spec { repeats: 0, ..spec.clone() }).contains("repeats = 0"));
     assert!(told(Spec { late: f64::NAN, ..spec.clone() }).contains("late = NaN"));
-    let cells = vec![vec!["contact.disk=9".to_string()]];
+    let cells = vec![vec!["contact.disk=9".parse().expect("a disk")]];
     assert!(told(Spec { cells, ..spec.clone() }).contains("contact.disk = 9"));
     let mut scenario = Scenario::default();
     scenario.contact.place = Place::disk(7);

@@ -94,7 +94,7 @@ fn in_place(
     }
     let hovered = state.hover.take();
     let cursor = cursor.clamp(0.0, chart::end(run));
-    let methods = Method::ALL.map(Some).into_iter().chain([None]);
+    let methods = Method::ALL.iter().copied().map(Some).chain([None]);
     for ((which, rect), method) in layout(area, beside).into_iter().enumerate().zip(methods) {
         let top = method.map(|method| top(state, (run, version), method));
         let bare = !beside && which + 1 < COUNT;

@@ -18,6 +18,7 @@ use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
+use centrode_core::scenario::Xi1Rule;
 use centrode_core::study::tuning::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Rule;
@@ -49,8 +50,11 @@ pub struct Named {
 
 impl Named {
     fn of(method: Rule, study: &Study) -> Self {
-        use centrode_core::scenario::Xi1Rule;
-        match (method, study.spec().scenario.detection.xi1_rule) {
+        Self::by(method, study.spec().scenario.detection.xi1_rule)
+    }
+
+    fn by(method: Rule, xi1_rule: Xi1Rule) -> Self {
+        match (method, xi1_rule) {
             (Rule::Jfd, Xi1Rule::Constant) => Self { symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
             (Rule::Jfd, Xi1Rule::Bound) => Self { symbol: "k", unit: "", scale: 1.0, decimals: 2 },
             _ => Self { symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
@@ -67,6 +71,8 @@ struct Derived {
     own: Vec<Option<usize>>,
     settings: Vec<Option<f64>>,
     verdict: Verdict,
+    /// The thresholds that the chosen rule holds beside its own, in words.
+    beside: words::Beside,
 }
 
 /// What is kept between frames.
@@ -118,7 +124,7 @@ impl View<'_> {
 /// Shows the study.
 pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let Some((study, cells, version)) = inputs.tuner.shown() else { return };
+    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.method) else { return };
     let TuningState { derived, operating, delay, places, lengths } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
         *derived = Some(derive(study, cells, version, inputs));
@@ -164,7 +170,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
 /// The command that makes this study, with all its numbers.
 fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
-    let lengths = inputs.tuner.shown().map_or(&[][..], |(_, cells, _)| &cells.lengths);
+    let lengths = inputs.tuner.shown(inputs.tuning.method).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
     let (scenario, hint) = if base == inputs.run.plan.scenario() {
         (format!("--preset {name}"), "")
@@ -187,19 +193,20 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
     Derived {
         version,
         tuning,
-        curves: Rule::ALL.iter().map(|&rule| study.curve(0, rule)).collect(),
+        curves: Rule::ALL.iter().map(|&rule| tuner.curve(rule)).collect(),
         own: Rule::ALL.iter().map(|&rule| tuner.level(rule)).collect(),
         settings: Rule::ALL.iter().map(|&rule| tuner.setting(rule)).collect(),
         verdict: recommend_among(study, lengths, &wish),
+        beside: words::beside(tuner, tuning.method),
     }
 }
 
 /// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names = Rule::ALL.map(chart::name);
+    let names: Vec<_> = Rule::ALL.iter().map(|&rule| chart::name(rule)).collect();
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
-        ("Alarm by", names.to_vec(), tuning.method as usize, 280.0),
+        ("Alarm by", names, tuning.method as usize, 280.0),
         (
             "False alarms, at most",
             WISHES.map(|(_, name)| name).to_vec(),
@@ -259,6 +266,7 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
     let (advice, take) = words::advice(view);
     let done = inputs.tuner.left().is_none();
     let advice = if done { advice } else { format!("So far: {advice}") };
+    let advice = if take.is_some() { advice + &view.derived.beside.counted } else { advice };
     ui.horizontal_top(|ui| {
         let mut text = rich(&advice, 13.0, if take.is_some() { view.theme.ink } else { view.theme.dim });
         let room = if take.is_some() { 70.0 } else { 0.0 };

@@ -2,6 +2,7 @@
 
 use crate::cli::output::{Failure, NewFile, finish_csv, write_record};
 use centrode_core::chart::csv::cell;
+use centrode_core::scenario::Override;
 use centrode_core::study::tuning::Study;
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::watch::Rule;
@@ -41,13 +42,12 @@ const COLUMNS: [&str; 27] = [
 pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
     let mut csv = csv::Writer::from_writer(file);
     let keys = study.cells().first().map_or(&[][..], |cell| &cell.set[..]);
-    let keys = keys.iter().map(|set| set.split_once('=').map_or(set.as_str(), |(key, _)| key));
+    let keys = keys.iter().map(Override::path);
     write_record(&mut csv, keys.chain(COLUMNS))?;
     for (k, settings) in study.cells().iter().enumerate() {
-        let values = settings.set.iter().map(|set| set.split_once('=').map_or("", |(_, value)| value).to_owned());
-        let values: Vec<String> = values.collect();
+        let values: Vec<String> = settings.set.iter().map(|set| set.written().to_owned()).collect();
         let contact = study.contact_time(k).map_or_else(String::new, cell);
-        for method in Rule::ALL {
+        for &method in Rule::ALL {
             for point in study.curve(k, method) {
                 let mut row = values.clone();
                 row.extend([method.name().to_owned(), cell(point.threshold)]);

@@ -1,6 +1,6 @@
 //! A study in words and a table.
 
-use centrode_core::scenario::Xi1Rule;
+use centrode_core::scenario::{Override, Xi1Rule};
 use centrode_core::study::Job;
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
@@ -22,7 +22,7 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     writeln!(out, "intervals   95 % (Wilson; of the median, from its ranks)\n")?;
     if let [_] = study.cells() {
         writeln!(out, "{}", head("method      threshold", NARROW))?;
-        for method in Rule::ALL {
+        for &method in Rule::ALL {
             let lead = match study.own(0, method) {
                 Some(level) => format!("{:<11} {}", name(method), threshold(study, 0, method, level)),
                 None => format!("{:<11} off", name(method)),
@@ -35,12 +35,12 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
             None => writeln!(out, "\ncontact     none")?,
         }
     } else {
-        let wide = study.cells().iter().map(|cell| cell.set.join(" ").chars().count()).max().unwrap_or(0);
+        let wide = study.cells().iter().map(|cell| joined(&cell.set).chars().count()).max().unwrap_or(0);
         writeln!(out, "{}, at the threshold that is set, and at the one advised in each cell", name(wish.method))?;
         writeln!(out, "{}", head(&format!("{:<wide$}  threshold", ""), wide + 13))?;
         for (k, cell) in study.cells().iter().enumerate() {
             let lead = |level: usize, sets: &str| format!("{sets:<wide$}  {}", threshold(study, k, wish.method, level));
-            let sets = cell.set.join(" ");
+            let sets = joined(&cell.set);
             match study.own(k, wish.method) {
                 Some(level) => {
                     let point = study.point(k, wish.method, level);
@@ -78,6 +78,11 @@ fn threshold(study: &Study, cell: usize, method: Rule, level: usize) -> String {
         (Rule::Jfd, Xi1Rule::Bound) => format!("{value:.2} ε_c"),
         _ => format!("{:.2} mm", value * 1e3),
     }
+}
+
+/// What a cell changes, as it is written.
+fn joined(set: &[Override]) -> String {
+    set.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
 fn head(lead: &str, wide: usize) -> String {
@@ -138,7 +143,7 @@ fn advice(study: &Study, wish: &Wish, verdict: &Verdict) -> String {
     match verdict {
         Verdict::Take { cell, level, point } => {
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
-            let others = study.cells()[*cell].set.iter().filter(|set| !set.starts_with("filter.length="));
+            let others = study.cells()[*cell].set.iter().filter(|set| set.path() != "filter.length");
             let others: String = others.map(|set| format!(", {set}")).collect();
             format!(
                 "{} with N = {}{}: soonest with {most}, {} s after contact (median); {} runs without contact give a false alarm",

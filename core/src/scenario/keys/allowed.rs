@@ -3,7 +3,7 @@
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
 use crate::scenario::Scenario;
-use crate::scenario::keys::quantity::{Quantity, Units};
+use crate::scenario::keys::quantity::{Quantity, Units, readable};
 use crate::scenario::keys::value::Value;
 use crate::scenario::keys::{self, Key};
 use crate::scenario::plan::{MAX_FILTER, MAX_SAMPLES, steps};
@@ -104,6 +104,8 @@ pub enum Allowed {
     Without(&'static str),
     /// The keys of this group.
     Group(&'static str),
+    /// Cells of a study that have at most so many thresholds together.
+    Thresholds(usize),
     /// What a study needs of it, in words.
     Need(&'static str),
 }
@@ -187,7 +189,8 @@ impl Allowed {
                 amount(MAX_SAMPLES / rate)
             ),
             Self::FilterLength(None) => {
-                format!("a whole number from 1 to {MAX_FILTER}, and no more than the run has samples")
+                let most = readable(MAX_FILTER as f64);
+                format!("a whole number from 1 to {most}, and no more than the run has samples")
             }
             Self::FilterLength(Some(samples)) => format!(
                 "a whole number from 1 to {}; the run has {samples} samples (motion.end · loop_rate)",
@@ -198,6 +201,9 @@ impl Allowed {
             ),
             Self::Without(other) => format!("{other} is given as well; give one of the two, not both"),
             Self::Group(path) => format!("a table of keys: {}", keys::names(path).join(", ")),
+            Self::Thresholds(most) => {
+                format!("at most {most} thresholds in all cells; compare fewer values or thresholds")
+            }
             Self::Need(words) => words.into(),
         }
     }

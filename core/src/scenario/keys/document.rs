@@ -1,6 +1,7 @@
 //! What is written from the table: the commented default scenario, and the reference in `docs/KEYS.md`.
 
 use crate::scenario::Scenario;
+use crate::scenario::keys::quantity::readable;
 use crate::scenario::keys::{Allowed, GROUPS, KEYS, Key, Units, Value};
 use std::fmt::Write;
 
@@ -9,7 +10,8 @@ const COMMENT: usize = 30;
 
 /// A number as a TOML float.
 fn float(value: f64) -> String {
-    if value.abs() >= 1e6 { format!("{value:e}") } else { format!("{value:?}") }
+    let text = readable(value);
+    if text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-') { text + ".0" } else { text }
 }
 
 fn toml(value: &Value) -> String {

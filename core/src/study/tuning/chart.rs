@@ -13,6 +13,7 @@ use super::{Point, Study};
 use crate::chart::notation::plain;
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Band, Chart, Panel, Role, Series, Style, Vertical};
+use crate::scenario::Override;
 use crate::study::Job;
 use crate::study::figure::words;
 
@@ -138,12 +139,12 @@ pub fn mark(panel: &mut Panel, role: Role, style: Style, at: Option<[f64; 2]>) {
 #[must_use]
 pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Chart {
     let cell = if let Verdict::Take { cell, .. } = verdict { *cell } else { 0 };
-    let set = study.cells().get(cell).map_or_else(String::new, |cell| plain(&cell.set.join(", ")));
+    let set = study.cells().get(cell).map_or_else(String::new, |cell| plain(&joined(&cell.set)));
     let rate = wish.false_alarm_rate;
     let own = |method| study.own(cell, method).map(|level| study.point(cell, method, level));
     let advised = if let Verdict::Take { point, .. } = verdict { Some(&**point) } else { None };
 
-    let points = Rule::ALL.map(|method| study.curve(cell, method));
+    let points: Vec<_> = Rule::ALL.iter().map(|&method| study.curve(cell, method)).collect();
     let curves = Rule::ALL.iter().zip(&points).map(|(&method, points)| {
         let (role, dashed) = look(method);
         Curve { name: name(method).into(), role, dashed, faint: false, points }
@@ -152,7 +153,7 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
     if !set.is_empty() {
         first.title = format!("{}, {set}", first.title);
     }
-    for method in Rule::ALL {
+    for &method in Rule::ALL {
         mark(&mut first, look(method).0, Style::Dots, own(method).as_ref().and_then(found));
     }
     mark(&mut first, Role::Choice, Style::Rings, advised.and_then(found));
@@ -163,7 +164,7 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
         let member = Role::Member(k as f64 / (count.max(2) - 1) as f64);
         let (name, role) = match cell.set.is_empty() {
             true => ("As set".into(), look(wish.method).0),
-            false => (plain(&cell.set.join(", ")), member),
+            false => (plain(&joined(&cell.set)), member),
         };
         Curve { name, role, dashed: false, faint: false, points }
     });
@@ -176,6 +177,11 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
         panels: vec![first, second],
         caption: caption(study, wish, advised.is_some(), partial),
     }
+}
+
+/// What a cell changes, as it is written.
+fn joined(set: &[Override]) -> String {
+    set.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// Top of the delays, s: no run is longer.
@@ -192,7 +198,7 @@ fn caption(study: &Study, wish: &Wish, advised: bool, partial: bool) -> String {
         true => format!("PARTIAL: {} of {} runs", progress.done, progress.of),
         false => format!("{} repeats with contact and without", spec.repeats),
     };
-    let swept = study.cells().iter().flat_map(|cell| &cell.set).any(|set| set.starts_with("filter.length="));
+    let swept = study.cells().iter().flat_map(|cell| &cell.set).any(|set| set.path() == "filter.length");
     let filter = if swept { String::new() } else { format!(", N = {}", spec.scenario.filter.length) };
     let left_out = study.cells().len().saturating_sub(CELLS);
     let more = if left_out > 0 { format!(" {left_out} more cells are not drawn.") } else { String::new() };

@@ -64,8 +64,10 @@ pub fn recommend_among(study: &Study, cells: impl IntoIterator<Item = usize>, wi
     let mut best: Option<(usize, usize, Point)> = None;
     let mut contact = false;
     for cell in cells {
-        runs = runs.max(study.repeats(cell).0);
-        contact |= study.contact_time(cell).is_some();
+        let (free, held) = study.runs(cell, wish.method);
+        runs = runs.max(free);
+        // Whether the robot reaches the beam, the first run will say.
+        contact = contact || held.is_some_and(|held| held == 0 || study.contact_time(cell).is_some());
         for (level, point) in study.curve(cell, wish.method).into_iter().enumerate() {
             let upper = point.false_alarms.rate.high;
             lowest = lowest.min(upper);

@@ -35,7 +35,7 @@ pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, kept: &mut Option<Picture
 /// All methods; the chosen one lies on top of the others, which stand back.
 fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
     let chosen = view.tuning.method;
-    let others = Rule::ALL.into_iter().filter(|method| *method != chosen);
+    let others = Rule::ALL.iter().copied().filter(|method| *method != chosen);
     let curve = |method: Rule| {
         let (role, dashed) = look(method);
         let points = &view.derived.curves[method as usize];

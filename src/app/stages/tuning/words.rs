@@ -1,9 +1,9 @@
 //! What the study says, in sentences.
 
 use crate::app::charts::notation::number;
-use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuner::{LATE, Tuner};
 use crate::app::stages::tuning::{Named, View};
-use centrode_core::scenario::Place;
+use centrode_core::scenario::{Place, Thresholds};
 use centrode_core::study::tuning::rate::Rate;
 use centrode_core::study::tuning::recommend::Verdict;
 use centrode_core::study::tuning::tally::Found;
@@ -49,25 +49,25 @@ pub fn now(view: &View<'_>) -> String {
         return "Making the first runs …".into();
     }
     let mut text = format!(
-        "Now, {setting}, N = {}: {} of {} runs without contact gave a false alarm ({}).",
+        "Now, {setting}{}, N = {}: {} of {} runs without contact gave a false alarm ({}).",
+        view.derived.beside.set,
         view.study.cells()[0].scenario.filter.length,
         if alarms.count == 0 { "none".into() } else { alarms.count.to_string() },
         alarms.of,
         interval(alarms),
     );
-    match (point.detection, view.study.contact_time(0)) {
-        (Some(seen), Some(_)) => text += &found(&seen, &place(view)),
-        (Some(_), None) => text += " The robot never reaches the beam.",
-        (None, _) => text += " There is no contact to detect.",
+    match point.detection {
+        // The first run says whether the robot reaches the beam.
+        Some(seen) if seen.early.of == 0 => {}
+        Some(_) if view.study.contact_time(0).is_none() => text += " The robot never reaches the beam.",
+        Some(seen) => text += &found(&seen, &place(view)),
+        None => text += " There is no contact to detect.",
     }
     text
 }
 
 fn found(seen: &Found, place: &str) -> String {
     let Rate { count, of, .. } = seen.detected;
-    if seen.early.of == 0 {
-        return String::new();
-    }
     if of == 0 {
         return " Every run gave an alarm before the contact.".into();
     }
@@ -94,6 +94,38 @@ fn found(seen: &Found, place: &str) -> String {
         text += &format!(" {} {runs} gave an alarm before the contact.", seen.early.count);
     }
     text
+}
+
+/// The thresholds that a rule holds beside its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beside {
+    /// As they are set, and with which it was counted where that was another; empty for a rule of one detector.
+    pub set: String,
+    /// With which it was counted, as a sentence; empty where they are set like that.
+    pub counted: String,
+}
+
+/// What a rule holds beside its own threshold. While one of these is on its way, the counts are those of the one before.
+pub fn beside(tuner: &Tuner, rule: Rule) -> Beside {
+    let (mut set, mut was) = (String::new(), String::new());
+    for &detector in rule.fixed() {
+        let (Some(counted), now) = (tuner.counted_with(rule), tuner.thresholds()) else { continue };
+        let alone = Rule::ALL.iter().find(|rule| rule.fixed().is_empty() && rule.swept() == detector);
+        let told = |thresholds: &Thresholds| {
+            let named = Named::by(alone.copied().unwrap_or(rule), thresholds.xi1_rule);
+            match detector.setting(thresholds) {
+                Some(threshold) => setting(&named, threshold),
+                None => format!("{} off", named.symbol),
+            }
+        };
+        let (now, counted) = (told(now), told(counted));
+        set += &format!(", {now}");
+        if now != counted {
+            set += &format!(" (counted with {counted})");
+            was += &format!(" This is counted with {counted}.");
+        }
+    }
+    Beside { set, counted: was }
 }
 
 fn setting(named: &Named, threshold: f64) -> String {

@@ -39,7 +39,7 @@ pub fn places(
         let Some(level) = study.levels(*cell, rule).iter().position(|&other| other == threshold) else { continue };
         let batch = &study.batches()[held];
         let lane = k as f64;
-        corners.extend(bars(batch.tally.count(rule, level), batch.clock.rate, late, lane + FOOT));
+        corners.extend(bars(batch.counted(rule, level).count, batch.clock.rate, late, lane + FOOT));
         let Some(seen) = study.point(*cell, rule, level).detection.filter(|seen| seen.early.of > 0) else { continue };
         let at = |delay: f64| [delay, lane + MEDIAN];
         if !seen.median.is_nan() {
