@@ -2,7 +2,7 @@
 
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
-use crate::detect::filter::Motion;
+use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
 use crate::model::Vec3;
 use crate::plant::Shape;
@@ -28,7 +28,7 @@ pub struct Sample {
     /// The tracker's reading, as held.
     pub reading: Reading,
     /// Position and motion of the end disk as the filtered tracker shows them.
-    pub motion: Motion,
+    pub motion: FilteredMotion,
     /// Load cell readings τ_lc, N. NaN where the statics are not defined.
     pub tau_lc: Vec3,
     /// What the two methods make of it.

@@ -4,7 +4,7 @@ use super::ScenarioArgs;
 use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
 use centrode_core::scenario::Scenario;
 use centrode_core::study::Job;
-use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
+use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -70,7 +70,7 @@ struct Quantity {
     label: &'static str,
     scale: f64,
     digits: usize,
-    of: fn(&Disk) -> Statistic,
+    of: fn(&Disk) -> Spread,
 }
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -165,7 +165,7 @@ fn number(value: f64, digits: usize) -> String {
     if value.is_nan() { "–".into() } else { format!("{value:.digits$}") }
 }
 
-fn plus_minus(statistic: Statistic, scale: f64, digits: usize) -> String {
+fn plus_minus(statistic: Spread, scale: f64, digits: usize) -> String {
     let mean = number(statistic.mean * scale, digits);
     if statistic.deviation.is_nan() {
         mean

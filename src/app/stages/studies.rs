@@ -5,7 +5,7 @@ use centrode_core::chart::Chart;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::{Contact, Place};
 use centrode_core::study::figure::FigureJob;
-use centrode_core::study::map::{Map, MapJob};
+use centrode_core::study::map::{ContactMap, MapJob};
 use centrode_core::study::table2::{Row, Table2, Table2Job};
 use centrode_core::study::{Job, Progress};
 
@@ -24,7 +24,7 @@ pub enum Found {
     /// Both tables, and the experiments behind the simulated one.
     Table(Box<Table2>, Vec<Row>),
     /// The map.
-    Map(Map),
+    Map(ContactMap),
 }
 
 #[derive(Debug)]

@@ -39,7 +39,7 @@ const REACH: f32 = 32.0;
 const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
 const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
 
-/// How a method is called, and its threshold, unit and size of that unit.
+/// How a rule is called, and its threshold, unit and size of that unit.
 pub struct Named {
     name: &'static str,
     symbol: &'static str,
@@ -49,18 +49,18 @@ pub struct Named {
 }
 
 impl Named {
-    fn of(method: Rule, study: &Study) -> Self {
-        Self::by(method, study.spec().scenario.detection.xi1_rule)
+    fn of(rule: Rule, study: &Study) -> Self {
+        Self::by(rule, study.spec().scenario.detection.xi1_rule)
     }
 
-    fn by(method: Rule, xi1_rule: Xi1Rule) -> Self {
-        let name = match method {
+    fn by(rule: Rule, xi1_rule: Xi1Rule) -> Self {
+        let name = match rule {
             Rule::Fcd => "Centrode",
             Rule::Jfd => "Forces",
             Rule::Or => "Either",
             Rule::And => "Both",
         };
-        match (method, xi1_rule) {
+        match (rule, xi1_rule) {
             (Rule::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
             (Rule::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
             _ => Self { name, symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
@@ -68,8 +68,8 @@ impl Named {
     }
 }
 
-fn color(method: Rule, theme: &Theme) -> Color32 {
-    match method {
+fn color(rule: Rule, theme: &Theme) -> Color32 {
+    match rule {
         Rule::Fcd => theme.sensor,
         Rule::Jfd => theme.force,
         Rule::Or => theme.ink,
@@ -108,25 +108,25 @@ struct View<'a> {
 
 impl View<'_> {
     fn curve(&self) -> &[Point] {
-        &self.derived.curves[self.tuning.method as usize]
+        &self.derived.curves[self.tuning.rule as usize]
     }
 
     fn own(&self) -> Option<&Point> {
-        self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
+        self.derived.own[self.tuning.rule as usize].map(|level| &self.curve()[level])
     }
 
     /// The threshold that is set; [`Self::own`] is what the nearest one that was counted comes to.
     fn setting(&self) -> Option<f64> {
-        self.derived.settings[self.tuning.method as usize]
+        self.derived.settings[self.tuning.rule as usize]
     }
 
-    /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
+    /// Takes a threshold of the chosen rule. Joint forces are not filtered: with theirs, the length stays.
     fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
-        let method = self.tuning.method;
-        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Rule::Jfd) });
+        let rule = self.tuning.rule;
+        out.push(Command::Take { rule, threshold, length: length.filter(|_| rule != Rule::Jfd) });
     }
 
-    /// Takes a level of the chosen method.
+    /// Takes a level of the chosen rule.
     fn take(&self, level: usize, length: Option<u64>, out: &mut Vec<Command>) {
         let Some(point) = self.curve().get(level) else { return };
         self.take_threshold(point.threshold, length, out);
@@ -136,7 +136,7 @@ impl View<'_> {
 /// Shows the study.
 pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.method) else { return };
+    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.rule) else { return };
     let TuningState { derived, picture } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
         *derived = Some(derive(study, cells, version, inputs));
@@ -176,7 +176,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
 /// The command that makes this study, with all its numbers.
 fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
-    let lengths = inputs.tuner.shown(inputs.tuning.method).map_or(&[][..], |(_, cells, _)| &cells.lengths);
+    let lengths = inputs.tuner.shown(inputs.tuning.rule).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
     let (scenario, hint) = if base == inputs.run.plan.scenario() {
         (format!("--preset {name}"), "")
@@ -192,10 +192,10 @@ fn command(inputs: &Inputs<'_>) -> String {
 
 fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> Derived {
     let (tuner, tuning) = (inputs.tuner, inputs.tuning);
-    let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
+    let wish = Wish { rule: tuning.rule, false_alarm_rate: tuning.wish };
     // Joint forces are not filtered: one length says it all.
     let lengths =
-        if tuning.method == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
+        if tuning.rule == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
     Derived {
         version,
         tuning,
@@ -203,16 +203,16 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
         own: Rule::ALL.iter().map(|&rule| tuner.level(rule)).collect(),
         settings: Rule::ALL.iter().map(|&rule| tuner.setting(rule)).collect(),
         verdict: recommend_among(study, lengths, &wish),
-        beside: words::beside(tuner, tuning.method),
+        beside: words::beside(tuner, tuning.rule),
     }
 }
 
 /// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names: Vec<_> = Rule::ALL.iter().map(|&method| Named::of(method, view.study).name).collect();
+    let names: Vec<_> = Rule::ALL.iter().map(|&rule| Named::of(rule, view.study).name).collect();
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
-        ("Alarm by", names, tuning.method as usize, 280.0),
+        ("Alarm by", names, tuning.rule as usize, 280.0),
         (
             "False alarms, at most",
             WISHES.map(|(_, name)| name).to_vec(),
@@ -240,7 +240,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
         let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
         if let Some(picked) = segmented(ui, place, label, &options, chosen) {
             out.push(Command::Tune(match k {
-                0 => Tuning { method: Rule::ALL[picked], ..tuning },
+                0 => Tuning { rule: Rule::ALL[picked], ..tuning },
                 1 => Tuning { wish: WISHES[picked].0, ..tuning },
                 _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
             }));

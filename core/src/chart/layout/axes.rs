@@ -1,6 +1,6 @@
 //! The axes of a panel: ranges, grid, numbers and names; the bar beside a map.
 
-use super::{Align, Frame, Ink, Look, Paint, Pen, Shape};
+use super::{Align, Frame, Ink, Item, Look, Paint, Pen};
 use crate::chart::clip::Rect;
 use crate::chart::font::width;
 use crate::chart::scale::Scale;
@@ -118,7 +118,7 @@ impl Pen<'_> {
         for span in &panel.spans {
             let ends = span.ends.map(|end| frame.x.at(end).max(data.left).min(data.right));
             let rect = Rect { left: ends[0].min(ends[1]), right: ends[0].max(ends[1]), ..data };
-            self.add(Shape::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
+            self.add(Item::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
         }
         for tick in self.marks_of(&panel.x, &frame.x, 0) {
             let x = frame.x.at(tick.value);
@@ -190,7 +190,7 @@ impl Pen<'_> {
             let share = map.share(value((k as f64 + 0.5) / PIECES as f64));
             // A hair of overlap, so that no seam shows.
             let piece = Rect { top: to, bottom: (from + 0.04 * t).min(bar.bottom), ..bar };
-            self.add(Shape::Fill(piece, Ink::Map(share).into()));
+            self.add(Item::Fill(piece, Ink::Map(share).into()));
         }
         for tick in self.bar_marks(map, &scale) {
             let y = scale.at(tick.value);

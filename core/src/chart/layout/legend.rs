@@ -1,7 +1,7 @@
 //! What the signs of a panel mean, in rows above its data.
 
-use super::{Form, Ink, Look, Paint, Pen, Shape};
-use crate::chart::clip::{Point, Rect};
+use super::{Form, Ink, Item, Look, Paint, Pen};
+use crate::chart::clip::{Rect, Spot};
 use crate::chart::font::width;
 use crate::chart::{Panel, Role, Style};
 
@@ -60,7 +60,7 @@ impl Pen<'_> {
     }
 
     /// Entries in rows, the first of which has its middle at `y`.
-    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Point, room: f64) {
+    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Spot, room: f64) {
         let t = self.t;
         let entries = entries(panel);
         let rows = self.rows(&entries, room);
@@ -72,7 +72,7 @@ impl Pen<'_> {
         }
     }
 
-    fn sign(&mut self, sign: Sign, [x, y]: Point) {
+    fn sign(&mut self, sign: Sign, [x, y]: Spot) {
         let t = self.t;
         let line = [[x - 1.15 * t, y], [x + 1.15 * t, y]];
         match sign {
@@ -86,7 +86,7 @@ impl Pen<'_> {
             Sign::Series(Style::Rings, role) => self.mark([x, y], Form::Ring, role, Ink::Ground),
             Sign::Span => {
                 let rect = Rect { left: x - 1.15 * t, right: x + 1.15 * t, top: y - 0.45 * t, bottom: y + 0.45 * t };
-                self.add(Shape::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
+                self.add(Item::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
             }
         }
     }

@@ -21,7 +21,7 @@ pub fn histogram(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command
     let heading = "Delay by place of contact";
     title(ui, rect, heading, theme);
     let rows = &view.cells.contacts;
-    let level = view.derived.own[view.tuning.method as usize];
+    let level = view.derived.own[view.tuning.rule as usize];
     let place = Rect::from_min_max(rect.min + vec2(0.0, 4.0), rect.max - vec2(WORDS - 10.0, 0.0));
     let data = Rect::from_min_max(place.min + vec2(50.0, 20.0), place.max - vec2(10.0, 38.0));
     let data = Rect::from_min_size(data.min, data.size().max(vec2(40.0, 40.0)));
@@ -62,13 +62,13 @@ pub fn histogram(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command
 }
 
 fn one(painter: &Painter, row: Rect, view: &View<'_>, (name, cell): (&str, usize), level: usize) {
-    let (theme, method) = (&view.theme, view.tuning.method);
+    let (theme, rule) = (&view.theme, view.tuning.rule);
     let Some(held) = view.study.cells()[cell].held else { return };
     let batch = &view.study.batches()[held];
     // Cells share their thresholds, but for an own one that only some have.
     let threshold = view.curve()[level].threshold;
-    let Some(level) = view.study.levels(cell, method).iter().position(|&other| other == threshold) else { return };
-    let count = batch.counted(method, level).count;
+    let Some(level) = view.study.levels(cell, rule).iter().position(|&other| other == threshold) else { return };
+    let count = batch.counted(rule, level).count;
     let heights = bars(count, batch.clock.rate);
     let most = heights.iter().copied().max().unwrap_or(0).max(1) as f32;
     let base = row.bottom() - 3.0;
@@ -79,11 +79,11 @@ fn one(painter: &Painter, row: Rect, view: &View<'_>, (name, cell): (&str, usize
         let left = row.left() + width * k as f32;
         let top = base - high * *bar as f32 / most;
         let bar = Rect::from_min_max(pos2(left + 0.5, top), pos2(left + width - 0.5, base));
-        painter.rect_filled(bar, 1.0, color(method, theme));
+        painter.rect_filled(bar, 1.0, color(rule, theme));
     }
     let y = row.center().y;
     painter.text(pos2(row.left() - 6.0, y), Align2::RIGHT_CENTER, name, fonts::regular(11.0), theme.ink);
-    let seen = view.study.point(cell, method, level).detection;
+    let seen = view.study.point(cell, rule, level).detection;
     let Some(seen) = seen.filter(|seen| seen.early.of > 0) else { return };
     let mut lines = vec![format!("found {} of {}", seen.detected.count, seen.detected.of)];
     if seen.early.count > 0 {

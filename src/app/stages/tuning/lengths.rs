@@ -25,9 +25,9 @@ const ROWS: [usize; 2] = [20, 200];
 
 /// Shows the map; a click or a drag takes threshold and filter length.
 pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Option<Picture>, out: &mut Vec<Command>) {
-    let method = view.tuning.method;
+    let rule = view.tuning.rule;
     let heading = "Median delay by filter length and threshold";
-    let key = (version, view.tuning.wish.to_bits(), method as usize);
+    let key = (version, view.tuning.wish.to_bits(), rule as usize);
     if kept.as_ref().is_none_or(|picture| picture.key != key) {
         let (map, step) = delays(view);
         let texture = paint::texture(ui.ctx(), "filter lengths", &map, &view.theme, false);
@@ -56,7 +56,7 @@ pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Op
 
 /// The axes of the map: a column for each filter length, a row for each threshold.
 fn panel(view: &View<'_>, map: &Map) -> Panel {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let tick = |(k, (length, _)): (usize, &(u64, usize))| Tick { value: k as f64, text: length.to_string() };
     let ticks = view.cells.lengths.iter().enumerate().map(tick).collect();
     let x = Axis { range: Some(map.x), ticks, ..Axis::new("Filter length N", "1", "1", 1.0) };
@@ -75,7 +75,7 @@ fn touch(
     own: Option<[f64; 2]>,
     out: &mut Vec<Command>,
 ) {
-    let (method, lengths) = (view.tuning.method, &view.cells.lengths);
+    let (rule, lengths) = (view.tuning.rule, &view.cells.lengths);
     let response = ui.interact(place.data(), ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, heading));
@@ -84,17 +84,17 @@ fn touch(
         let &(length, cell) = lengths.get((column.round().max(0.0) as usize).min(lengths.len().checked_sub(1)?))?;
         // Levels that are drawn: the evenly spaced ones.
         let row = ((wanted / picture.step).round() as usize).clamp(1, picture.map.rows().max(1));
-        Some((length, cell, nearest(view.study.levels(cell, method), row as f64 * picture.step)))
+        Some((length, cell, nearest(view.study.levels(cell, rule), row as f64 * picture.step)))
     };
     let near = |finger: Pos2| own.is_some_and(|own| place.at(own).distance(finger) < REACH);
     if let Some(at) = taken(ui, &response, near) {
         if let Some((length, cell, level)) = under(at) {
-            view.take_threshold(view.study.levels(cell, method)[level], Some(length), out);
+            view.take_threshold(view.study.levels(cell, rule)[level], Some(length), out);
         }
     } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged())
         && let Some((length, cell, level)) = under(at)
     {
-        let mut lines = curves::note(view, &view.study.point(cell, method, level), &view.theme);
+        let mut lines = curves::note(view, &view.study.point(cell, rule, level), &view.theme);
         lines.insert(1, job(&format!("N = {length}"), 11.5, view.theme.ink));
         notation::note(ui.painter(), &view.theme, at, place.data(), lines);
     }
@@ -112,8 +112,8 @@ fn nearest(levels: &[f64], threshold: f64) -> usize {
 
 /// The median delay, s, and whether false alarms are as rare as wished.
 fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
-    let (study, method) = (view.study, view.tuning.method);
-    let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
+    let (study, rule) = (view.study, view.tuning.rule);
+    let point = study.point(cell, rule, nearest(study.levels(cell, rule), threshold));
     let quiet = point.false_alarms.rate.high <= view.tuning.wish;
     let delay = point.detection.map(|seen| seen.median).filter(|delay| !delay.is_nan());
     delay.filter(|_| point.false_alarms.rate.of > 0).map(|delay| (delay, quiet))
@@ -123,7 +123,7 @@ fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
 fn delays(view: &View<'_>) -> (Map, f64) {
     let cells = &view.cells.lengths;
     // The steps are even, but for the coarse ones and the scenario's own.
-    let levels = view.study.levels(0, view.tuning.method);
+    let levels = view.study.levels(0, view.tuning.rule);
     let step = levels.windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(0.0, f64::max);
     let known = |row: usize| cells.iter().map(move |(_, cell)| delay(view, *cell, row as f64 * step));
     let rows: Vec<Vec<Option<(f64, bool)>>> = (1..=ROWS[1]).map(|row| known(row).collect()).collect();
