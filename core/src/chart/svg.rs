@@ -12,6 +12,22 @@ use std::fmt::Write;
 pub const FAINT: f64 = 0.28;
 
 /// Writes a drawing of a chart; `color` gives red, green and blue of an ink.
+///
+/// ```
+/// use centrode_core::chart::layout::{Page, layout};
+/// use centrode_core::chart::svg::svg;
+/// use centrode_core::scenario::Scenario;
+/// use centrode_core::study::Job;
+/// use centrode_core::study::figure::{FigureJob, Number};
+///
+/// let mut job = FigureJob::new(Number::Three, &Scenario::default())?;
+/// job.finish();
+/// let chart = job.chart();
+/// let drawing = layout(&chart, &Page { size: [640.0, 480.0], text: 12.0, words: true });
+/// let text = svg(&drawing, &chart, &|_| [0, 0, 0]);
+/// assert!(text.starts_with("<svg") && text.contains("Least detectable joint force deviation"));
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[must_use]
 pub fn svg(drawing: &Drawing, chart: &Chart, color: &dyn Fn(Ink) -> [u8; 3]) -> String {
     let mut page = Page { text: String::new(), color };

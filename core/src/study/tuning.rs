@@ -89,6 +89,23 @@ pub struct Point {
 }
 
 /// A study, as far as it has come.
+///
+/// ```
+/// use centrode_core::scenario::preset::find;
+/// use centrode_core::study::Job;
+/// use centrode_core::study::tuning::watch::Rule;
+/// use centrode_core::study::tuning::{Spec, Study};
+///
+/// let spec = Spec { cells: vec![vec!["filter.length=300".parse()?]], ..Spec::of(find("bench")?.scenario()?, 4) };
+/// let mut study = Study::new(spec)?;
+/// study.step();
+/// assert_eq!((study.progress().done, study.progress().of), (1, 8));
+/// study.finish();
+/// let own = study.own(0, Rule::Fcd).expect("ξ2 is on");
+/// let point = study.point(0, Rule::Fcd, own);
+/// assert_eq!((point.threshold, point.false_alarms.rate.of), (0.007, 4));
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     spec: Spec,
@@ -103,7 +120,8 @@ impl Study {
     /// A study of which nothing is done.
     ///
     /// # Errors
-    /// When a cell's scenario is impossible, a number of the spec is, or there is more to count than [`MAX_COUNTS`].
+    /// [`ScenarioError::Value`] when a cell's scenario is impossible or its run too long to keep, `repeats` or `late` is, or
+    /// `cells` have more thresholds together than [`MAX_COUNTS`].
     pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
         if !(1..=MAX_REPEATS).contains(&spec.repeats) {
             let allowed = Allowed::Whole(1, MAX_REPEATS as u64);
