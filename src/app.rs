@@ -140,7 +140,7 @@ impl App {
             "location": run.detection().map(|detection| detection.location),
             "playing": self.state.playing,
             "summary": story::sentence(run),
-            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.method)).flatten(),
+            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.rule)).flatten(),
         })
         .to_string()
     }
@@ -335,7 +335,7 @@ impl App {
                     Ok(())
                 }),
                 Command::Tune(tuning) => self.state.tuning = tuning,
-                Command::Take { method, threshold, length } => self.take(method, threshold, length),
+                Command::Take { rule, threshold, length } => self.take(rule, threshold, length),
                 Command::HoldStudy(held) => self.tuner.hold(held),
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetXi1(xi1) => self.change(&["detection.xi1"], |s| {
@@ -379,8 +379,8 @@ impl App {
     }
 
     /// Takes what a study has shown.
-    fn take(&mut self, method: Rule, threshold: f64, length: Option<u64>) {
-        let key = match (method, self.state.scenario.detection.xi1_rule) {
+    fn take(&mut self, rule: Rule, threshold: f64, length: Option<u64>) {
+        let key = match (rule, self.state.scenario.detection.xi1_rule) {
             (Rule::Jfd, Xi1Rule::Constant) => "detection.xi1",
             (Rule::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
             _ => "detection.xi2",

@@ -73,6 +73,17 @@ pub struct Recording {
 
 impl Recording {
     /// The experiment of a plan, simulated.
+    ///
+    /// ```
+    /// use centrode_core::record::Recording;
+    /// use centrode_core::scenario::{Plan, Scenario};
+    ///
+    /// let recording = Recording::simulated(&Plan::new(&Scenario::default())?);
+    /// assert_eq!(recording.entries.len(), 10_001);
+    /// let truth = recording.truth.as_ref().expect("a simulation knows it");
+    /// assert!(truth[0].held.is_none() && truth[9_000].held.is_some());
+    /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+    /// ```
     #[must_use]
     pub fn simulated(plan: &Plan) -> Self {
         let mut entries = Vec::with_capacity(plan.samples());

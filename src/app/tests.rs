@@ -19,7 +19,7 @@ fn noted(commands: Vec<Command>) -> Vec<(&'static str, String)> {
 
 #[test]
 fn a_refused_recommendation_is_noted_at_the_control_refused() {
-    let take = |method, threshold, length| noted(vec![Command::Take { method, threshold, length }]);
+    let take = |rule, threshold, length| noted(vec![Command::Take { rule, threshold, length }]);
     for (notes, key, said) in [
         (take(Rule::Fcd, 0.005, Some(99_999_999)), "filter.length", "Filter length N 99999999: a whole number from 1"),
         (take(Rule::Fcd, -1.0, Some(100)), "detection.xi2", "ξ2 (centrode) −1000.0 mm: a finite number, 0 mm"),

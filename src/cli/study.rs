@@ -38,8 +38,8 @@ pub struct StudyArgs {
     #[arg(long = "sweep", value_name = "KEY=VALUES")]
     sweeps: Vec<String>,
     /// How alarms are raised, for the recommendation: by the centrode, by joint forces, by either, by both at once.
-    #[arg(long, value_enum, default_value_t = MethodArg::Fcd)]
-    method: MethodArg,
+    #[arg(long = "method", value_name = "METHOD", value_enum, default_value_t = RuleArg::Fcd)]
+    rule: RuleArg,
     /// The share of runs without contact that may alarm, above 0 and below 1.
     #[arg(long, value_name = "RATE", default_value_t = 0.05)]
     false_alarms: f64,
@@ -55,20 +55,20 @@ pub struct StudyArgs {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum MethodArg {
+enum RuleArg {
     Fcd,
     Jfd,
     Or,
     And,
 }
 
-impl From<MethodArg> for Rule {
-    fn from(method: MethodArg) -> Self {
-        match method {
-            MethodArg::Fcd => Self::Fcd,
-            MethodArg::Jfd => Self::Jfd,
-            MethodArg::Or => Self::Or,
-            MethodArg::And => Self::And,
+impl From<RuleArg> for Rule {
+    fn from(rule: RuleArg) -> Self {
+        match rule {
+            RuleArg::Fcd => Self::Fcd,
+            RuleArg::Jfd => Self::Jfd,
+            RuleArg::Or => Self::Or,
+            RuleArg::And => Self::And,
         }
     }
 }
@@ -98,22 +98,22 @@ struct CellReport<'a> {
     /// Truth, s; null when contact never begins.
     contact_time: Option<f64>,
     /// At the scenario's own thresholds; null where one is off.
-    own: ByMethod<Option<Point>>,
+    own: ByRule<Option<Point>>,
     /// At all thresholds, without the inner points of stretches in which nothing else changes.
-    curves: ByMethod<Vec<Point>>,
+    curves: ByRule<Vec<Point>>,
     /// Which threshold to take in this cell.
     advised: Verdict,
 }
 
 #[derive(Debug, Serialize)]
-struct ByMethod<T> {
+struct ByRule<T> {
     fcd: T,
     jfd: T,
     or: T,
     and: T,
 }
 
-impl<T> ByMethod<T> {
+impl<T> ByRule<T> {
     fn of(of: impl Fn(Rule) -> T) -> Self {
         Self { fcd: of(Rule::Fcd), jfd: of(Rule::Jfd), or: of(Rule::Or), and: of(Rule::And) }
     }
@@ -132,7 +132,7 @@ impl StudyArgs {
     /// Repeats, counts and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario_or("bench")?;
-        let wish = Wish { method: self.method.into(), false_alarm_rate: self.false_alarms };
+        let wish = Wish { rule: self.rule.into(), false_alarm_rate: self.false_alarms };
         if !(wish.false_alarm_rate > 0.0 && wish.false_alarm_rate < 1.0) {
             let line = format!("--false-alarms {}: a share above 0 and below 1 is expected", self.false_alarms);
             return Err(Failure::Input(line));
@@ -203,14 +203,14 @@ impl StudyArgs {
 fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool) -> Report<'a> {
     let cells = study.cells().iter().enumerate().map(|(k, cell)| {
         let (runs_free, runs_contact) = study.repeats(k);
-        let own = |method| study.own(k, method).map(|level| study.point(k, method, level));
+        let own = |rule| study.own(k, rule).map(|level| study.point(k, rule, level));
         CellReport {
             set: &cell.set,
             runs_free,
             runs_contact,
             contact_time: study.contact_time(k),
-            own: ByMethod::of(own),
-            curves: ByMethod::of(|method| thinned(study.curve(k, method))),
+            own: ByRule::of(own),
+            curves: ByRule::of(|rule| thinned(study.curve(k, rule))),
             advised: recommend_among(study, [k], &wish),
         }
     });

@@ -82,7 +82,7 @@ struct Quantity {
     label: &'static str,
     scale: f64,
     digits: usize,
-    of: fn(&Disk) -> Statistic,
+    of: fn(&Disk) -> Spread,
 }
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -177,7 +177,7 @@ fn number(value: f64, digits: usize) -> String {
     if value.is_nan() { "–".into() } else { format!("{value:.digits$}") }
 }
 
-fn plus_minus(statistic: Statistic, scale: f64, digits: usize) -> String {
+fn plus_minus(statistic: Spread, scale: f64, digits: usize) -> String {
     let mean = number(statistic.mean * scale, digits);
     if statistic.deviation.is_nan() {
         mean

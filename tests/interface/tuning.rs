@@ -145,7 +145,7 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
         page.run_steps(2);
         assert!(!said(&page, part).is_empty(), "{option}: {part}");
     }
-    assert_eq!(app(&page).state().tuning.method, Rule::Or);
+    assert_eq!(app(&page).state().tuning.rule, Rule::Or);
 }
 
 #[test]

@@ -23,6 +23,17 @@ fn row(text: &mut String, fields: &[&str]) {
 /// is a row with an empty y; of what stands over the whole height y is empty. A span has a row for both ends, a bar for two
 /// opposite corners, an interval for an end, its mark and the other end. A chart of several
 /// panels is written panel by panel, each with its own header.
+///
+/// ```
+/// use centrode_core::chart::csv::csv;
+/// use centrode_core::chart::{Axis, Chart, Panel, Role, Series, Style};
+///
+/// let mut panel = Panel::new(Axis::new("t", "s", "s", 1.0), Axis::new("Θ", "N·m", "mN·m", 1e3));
+/// panel.series.push(Series::new("measured", Role::Force, Style::Line, vec![[0.0, 0.002], [0.5, 0.003]]));
+/// let text = csv(&Chart { panels: vec![panel], ..Chart::default() });
+/// assert_eq!(text.lines().next(), Some("kind,series,name,t [s],Θ [N·m]"));
+/// assert_eq!(text.lines().last(), Some("line,0,measured,0.5,0.003"));
+/// ```
 #[must_use]
 pub fn csv(chart: &Chart) -> String {
     let mut text = String::new();

@@ -7,7 +7,7 @@ mod axes;
 mod data;
 mod legend;
 
-use super::clip::{Point, Rect};
+use super::clip::{Rect, Spot};
 use super::font::{self, width};
 use super::notation::printed;
 use super::scale::Scale;
@@ -43,7 +43,7 @@ pub struct Drawing {
     /// Width and height, points.
     pub size: [f64; 2],
     /// What is drawn, back to front.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Item>,
     /// Where the panels' data lies, in their order.
     pub frames: Vec<Frame>,
 }
@@ -62,13 +62,13 @@ pub struct Frame {
 impl Frame {
     /// Where a point lies.
     #[must_use]
-    pub fn at(&self, [x, y]: [f64; 2]) -> Point {
+    pub fn at(&self, [x, y]: [f64; 2]) -> Spot {
         [self.x.at(x), self.y.at(y)]
     }
 
     /// The values at a place, within the ranges.
     #[must_use]
-    pub fn value(&self, [x, y]: Point) -> [f64; 2] {
+    pub fn value(&self, [x, y]: Spot) -> [f64; 2] {
         [self.x.value(x), self.y.value(y)]
     }
 }
@@ -165,7 +165,7 @@ pub struct Text {
     /// The text, in which `_x` is a subscript.
     pub text: String,
     /// Its place.
-    pub at: Point,
+    pub at: Spot,
     /// Its size, points.
     pub size: f64,
     /// Its colour.
@@ -180,17 +180,17 @@ pub struct Text {
 
 /// Something that is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum Item {
     /// A filled rectangle.
     Fill(Rect, Paint),
     /// The map of the panel of this place in the chart.
     Map(Rect, usize),
     /// The area between two edges, point by point.
-    Band(Vec<[Point; 2]>, Paint),
+    Band(Vec<[Spot; 2]>, Paint),
     /// A line through points, its width, and the lengths of its dashes and of the gaps between them.
-    Line(Vec<Point>, Paint, f64, Option<[f64; 2]>),
+    Line(Vec<Spot>, Paint, f64, Option<[f64; 2]>),
     /// A mark at a place, its form and its radius; its edge parts it from what is behind it.
-    Mark(Point, Form, f64, Paint, Ink),
+    Mark(Spot, Form, f64, Paint, Ink),
     /// A text.
     Text(Text),
 }
@@ -283,18 +283,18 @@ struct Pen<'a> {
 }
 
 impl Pen<'_> {
-    fn add(&mut self, shape: Shape) {
+    fn add(&mut self, shape: Item) {
         self.drawing.shapes.push(shape);
     }
 
-    fn text(&mut self, text: &str, at: Point, look: Look) {
+    fn text(&mut self, text: &str, at: Spot, look: Look) {
         let size = if look.size > 0.0 { look.size } else { self.t };
         let Look { ink, align, strong, upright, .. } = look;
-        self.add(Shape::Text(Text { text: printed(text), at, size, ink, align, strong, upright }));
+        self.add(Item::Text(Text { text: printed(text), at, size, ink, align, strong, upright }));
     }
 
-    fn line(&mut self, points: &[Point], paint: impl Into<Paint>, wide: f64, dash: Option<[f64; 2]>) {
-        self.add(Shape::Line(points.to_vec(), paint.into(), wide, dash));
+    fn line(&mut self, points: &[Spot], paint: impl Into<Paint>, wide: f64, dash: Option<[f64; 2]>) {
+        self.add(Item::Line(points.to_vec(), paint.into(), wide, dash));
     }
 
     /// One panel in its place.

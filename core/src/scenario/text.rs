@@ -10,6 +10,17 @@ use toml::Table;
 pub const DEFAULT_TOML: &str = include_str!("../../../assets/scenario.toml");
 
 /// A scenario being put together: a file or preset, then overrides, then a check.
+///
+/// ```
+/// use centrode_core::scenario::text::Draft;
+///
+/// let mut draft = Draft::from_toml("[filter]\nlength = 200")?;
+/// draft.set("contact.disk=3")?;
+/// assert_eq!(draft.finish()?.filter.length, 200);
+/// let refused = Draft::from_toml("[filter]\nlenght = 200").expect_err("no such key").to_string();
+/// assert!(refused.contains("filter.lenght") && refused.contains("length, averaging"), "{refused}");
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Draft {
     scenario: Scenario,
@@ -25,7 +36,7 @@ impl Draft {
     /// From a file's bytes.
     ///
     /// # Errors
-    /// When they are not UTF-8, not TOML, or hold an unknown key or a value of another kind.
+    /// [`ScenarioError::NotText`] when they are not UTF-8, and those of [`Draft::from_toml`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ScenarioError> {
         let text =
             std::str::from_utf8(bytes).map_err(|error| ScenarioError::NotText { offset: error.valid_up_to() })?;
@@ -35,7 +46,8 @@ impl Draft {
     /// From TOML; missing keys have their defaults.
     ///
     /// # Errors
-    /// When it is not TOML, or holds an unknown key or a value of another kind.
+    /// [`ScenarioError::Syntax`] when it is not TOML, [`ScenarioError::UnknownKey`] for a key that does not exist,
+    /// [`ScenarioError::Value`] for a value of another kind or two keys of which only one can be given.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let table = text.parse::<Table>().map_err(|error| ScenarioError::Syntax {
@@ -53,7 +65,8 @@ impl Draft {
     /// Overrides one key with `key=value`; the value is TOML, or a bare word.
     ///
     /// # Errors
-    /// When the text is not `key=value`, the key is unknown, or the value is of another kind.
+    /// [`ScenarioError::Override`] when the text is not `key=value`, [`ScenarioError::UnknownKey`] for a key that does not exist,
+    /// [`ScenarioError::Value`] for a value of another kind.
     pub fn set(&mut self, text: &str) -> Result<(), ScenarioError> {
         text.parse::<Override>()?.apply(&mut self.scenario);
         Ok(())
@@ -62,7 +75,7 @@ impl Draft {
     /// The scenario, checked.
     ///
     /// # Errors
-    /// The first value that is impossible.
+    /// [`ScenarioError::Value`]: the first value that is impossible, with its key and what is allowed.
     pub fn finish(self) -> Result<Scenario, ScenarioError> {
         KEYS.iter().try_for_each(|key| key.check(&self.scenario))?;
         Ok(self.scenario)

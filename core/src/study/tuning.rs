@@ -1,4 +1,4 @@
-//! Threshold tuning: repeats of a scenario with and without contact, and what every threshold of every method would
+//! Threshold tuning: repeats of a scenario with and without contact, and what every threshold of every rule would
 //! have made of them.
 //!
 //! A run is made once and judged by all thresholds in that one pass. Repeat `k` has the seed of
@@ -33,7 +33,7 @@ use watch::{Firsts, Rule, first_alarms, of_any_rule};
 /// The most repeats of one scenario.
 pub const MAX_REPEATS: usize = 10_000_000;
 
-/// The most thresholds that one study counts, over all its scenarios and methods: up to 1 GB of counts.
+/// The most thresholds that one study counts, over all its scenarios and rules: up to 1 GB of counts.
 pub const MAX_COUNTS: usize = 20_000_000;
 
 /// Repeats that a batch makes in its turn where there are many batches.
@@ -89,13 +89,30 @@ pub struct Point {
 }
 
 /// A study, as far as it has come.
+///
+/// ```
+/// use centrode_core::scenario::preset::find;
+/// use centrode_core::study::Job;
+/// use centrode_core::study::tuning::watch::Rule;
+/// use centrode_core::study::tuning::{Spec, Study};
+///
+/// let spec = Spec { cells: vec![vec!["filter.length=300".parse()?]], ..Spec::of(find("bench")?.scenario()?, 4) };
+/// let mut study = Study::new(spec)?;
+/// study.step();
+/// assert_eq!((study.progress().done, study.progress().of), (1, 8));
+/// study.finish();
+/// let own = study.own(0, Rule::Fcd).expect("ξ2 is on");
+/// let point = study.point(0, Rule::Fcd, own);
+/// assert_eq!((point.threshold, point.false_alarms.rate.of), (0.007, 4));
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Study {
     spec: Spec,
     batches: Vec<Batch>,
     cells: Vec<Cell>,
     shared: Kept,
-    /// Thresholds to count, over all batches and methods.
+    /// Thresholds to count, over all batches and rules.
     counts: usize,
 }
 
@@ -103,7 +120,8 @@ impl Study {
     /// A study of which nothing is done.
     ///
     /// # Errors
-    /// When a cell's scenario is impossible, a number of the spec is, or there is more to count than [`MAX_COUNTS`].
+    /// [`ScenarioError::Value`] when a cell's scenario is impossible or its run too long to keep, `repeats` or `late` is, or
+    /// `cells` have more thresholds together than [`MAX_COUNTS`].
     pub fn new(spec: Spec) -> Result<Self, ScenarioError> {
         if !(1..=MAX_REPEATS).contains(&spec.repeats) {
             let allowed = Allowed::Whole(1, MAX_REPEATS as u64);
@@ -244,13 +262,13 @@ impl Study {
         (0..self.batches.len()).filter(|&batch| self.batches[batch].tally.runs < wanted).collect()
     }
 
-    /// The thresholds of a method in a cell.
+    /// The thresholds of a rule in a cell.
     ///
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn levels(&self, cell: usize, method: Rule) -> &[f64] {
-        method.levels(&self.batches[self.cells[cell].free].levels)
+    pub fn levels(&self, cell: usize, rule: Rule) -> &[f64] {
+        rule.levels(&self.batches[self.cells[cell].free].levels)
     }
 
     /// What a threshold comes to in a cell.
@@ -258,26 +276,26 @@ impl Study {
     /// # Panics
     /// When there is no such cell or level.
     #[must_use]
-    pub fn point(&self, cell: usize, method: Rule, level: usize) -> Point {
+    pub fn point(&self, cell: usize, rule: Rule, level: usize) -> Point {
         let Cell { free, held, .. } = self.cells[cell];
         let free = &self.batches[free];
         Point {
-            threshold: method.levels(&free.levels)[level],
-            false_alarms: false_alarms(free.counted(method, level), &free.clock),
+            threshold: rule.levels(&free.levels)[level],
+            false_alarms: false_alarms(free.counted(rule, level), &free.clock),
             detection: held.map(|held| {
                 let held = &self.batches[held];
-                detection(held.counted(method, level), &held.clock)
+                detection(held.counted(rule, level), &held.clock)
             }),
         }
     }
 
-    /// What all thresholds of a method come to in a cell, rising.
+    /// What all thresholds of a rule come to in a cell, rising.
     ///
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn curve(&self, cell: usize, method: Rule) -> Vec<Point> {
-        (0..self.levels(cell, method).len()).map(|level| self.point(cell, method, level)).collect()
+    pub fn curve(&self, cell: usize, rule: Rule) -> Vec<Point> {
+        (0..self.levels(cell, rule).len()).map(|level| self.point(cell, rule, level)).collect()
     }
 
     /// The level of the cell's own setting; none while it is switched off.
@@ -285,9 +303,9 @@ impl Study {
     /// # Panics
     /// When there is no such cell.
     #[must_use]
-    pub fn own(&self, cell: usize, method: Rule) -> Option<usize> {
-        let setting = method.swept().setting(&self.cells[cell].scenario.detection);
-        self.levels(cell, method).iter().position(|&level| Some(level) == setting)
+    pub fn own(&self, cell: usize, rule: Rule) -> Option<usize> {
+        let setting = rule.swept().setting(&self.cells[cell].scenario.detection);
+        self.levels(cell, rule).iter().position(|&level| Some(level) == setting)
     }
 
     /// Repeats made of a cell: without contact, and with.

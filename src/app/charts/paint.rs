@@ -50,7 +50,7 @@ impl Place {
     }
 }
 
-fn pos([x, y]: Point, origin: Vec2) -> Pos2 {
+fn pos([x, y]: Spot, origin: Vec2) -> Pos2 {
     pos2(x as f32, y as f32) + origin
 }
 
@@ -166,17 +166,17 @@ impl Brush<'_> {
         color(paint.ink, self.theme).gamma_multiply(paint.opacity as f32)
     }
 
-    fn pos(&self, point: Point) -> Pos2 {
+    fn pos(&self, point: Spot) -> Pos2 {
         pos(point, self.origin)
     }
 
-    fn shape(&self, shape: &Shape) {
+    fn shape(&self, shape: &Item) {
         let painter = self.painter;
         match shape {
-            Shape::Fill(place, paint) => {
+            Item::Fill(place, paint) => {
                 painter.rect_filled(rect(*place, self.origin), 0.0, self.color(*paint));
             }
-            Shape::Map(place, panel) => {
+            Item::Map(place, panel) => {
                 let place = rect(*place, self.origin);
                 painter.rect_filled(place, 0.0, self.theme.raised);
                 if let Some(Some(texture)) = self.maps.get(*panel) {
@@ -184,8 +184,8 @@ impl Brush<'_> {
                     painter.image(texture.id(), place, whole, Color32::WHITE);
                 }
             }
-            Shape::Band(edges, paint) => self.band(edges, self.color(*paint)),
-            Shape::Line(points, paint, wide, dash) => {
+            Item::Band(edges, paint) => self.band(edges, self.color(*paint)),
+            Item::Line(points, paint, wide, dash) => {
                 let stroke = Stroke::new((*wide as f32).max(1.0), self.color(*paint));
                 let points = self.sharp(points.iter().map(|point| self.pos(*point)).collect());
                 match dash {
@@ -195,8 +195,8 @@ impl Brush<'_> {
                     None => drop(painter.line(points, stroke)),
                 }
             }
-            Shape::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
-            Shape::Text(text) => self.text(text),
+            Item::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
+            Item::Text(text) => self.text(text),
         }
     }
 
@@ -214,7 +214,7 @@ impl Brush<'_> {
         points
     }
 
-    fn band(&self, edges: &[[Point; 2]], color: Color32) {
+    fn band(&self, edges: &[[Spot; 2]], color: Color32) {
         let mut mesh = Mesh::default();
         for (k, edge) in edges.iter().enumerate() {
             edge.iter().for_each(|point| mesh.colored_vertex(self.pos(*point), color));
@@ -227,7 +227,7 @@ impl Brush<'_> {
         self.painter.add(egui::Shape::mesh(mesh));
     }
 
-    fn mark(&self, at: Point, form: Form, radius: f64, paint: Paint, edge: Ink) {
+    fn mark(&self, at: Spot, form: Form, radius: f64, paint: Paint, edge: Ink) {
         let (fill, edge) = (self.color(paint), color(edge, self.theme));
         let wide = (radius * form.stroke()) as f32;
         let (place, r) = (self.pos(at), radius as f32);

@@ -22,7 +22,7 @@ pub type Key = (u64, Scenario);
 pub fn map(
     ui: &mut Ui,
     rect: Rect,
-    shown: &Map,
+    shown: &ContactMap,
     version: u64,
     inputs: &Inputs<'_>,
     kept: &mut Option<Picture<Key>>,
@@ -60,7 +60,7 @@ pub fn map(
 }
 
 /// The values where the contact is, in words.
-fn summary(map: &Map, inputs: &Inputs<'_>) -> String {
+fn summary(map: &ContactMap, inputs: &Inputs<'_>) -> String {
     let plan = &inputs.run.plan;
     let Some(contact) = plan.contact() else {
         return "There is no contact now: click where it should be.".into();
@@ -88,7 +88,7 @@ fn short(kind: Kind) -> &'static str {
 }
 
 /// A click or a drag puts the contact where the pointer is; without a button the pointer reads the map.
-fn touch(ui: &mut Ui, place: &Place, kind: Kind, map: &Map, out: &mut Vec<Command>, theme: &Theme) {
+fn touch(ui: &mut Ui, place: &Place, kind: Kind, map: &ContactMap, out: &mut Vec<Command>, theme: &Theme) {
     let data = place.data();
     let response = ui.interact(data, ui.make_persistent_id(short(kind)), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);

@@ -4,7 +4,7 @@ use crate::app::stages::stage::Stage;
 use centrode_core::chart::Chart;
 use centrode_core::scenario::{Contact, Place, Scenario, ScenarioError};
 use centrode_core::study::figure::FigureJob;
-use centrode_core::study::map::{Map, MapJob};
+use centrode_core::study::map::{ContactMap, MapJob};
 use centrode_core::study::table2::{Row, Table2, Table2Job};
 use centrode_core::study::{Job, Progress};
 
@@ -23,7 +23,7 @@ pub enum Found {
     /// Both tables, and the experiments behind the simulated one.
     Table(Box<Table2>, Vec<Row>),
     /// The map.
-    Map(Map),
+    Map(ContactMap),
 }
 
 #[derive(Debug)]

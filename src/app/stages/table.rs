@@ -6,7 +6,7 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::paint::Picture;
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use centrode_core::study::table2::{Disk, Row, Statistic, Table2};
+use centrode_core::study::table2::{Disk, Row, Spread, Table2};
 use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.
@@ -22,7 +22,7 @@ struct Column {
     cell: fn(&Disk) -> String,
 }
 
-fn both(value: &Statistic, scale: f64, decimals: usize) -> String {
+fn both(value: &Spread, scale: f64, decimals: usize) -> String {
     match (value.mean.is_nan(), value.deviation.is_nan()) {
         (true, _) => "–".into(),
         (false, true) => number(value.mean * scale, decimals),

@@ -321,17 +321,17 @@ impl Tuner {
 
     /// The same as JSON for whoever reads the page without eyes, with the progress in runs.
     #[must_use]
-    pub fn report(&self, method: Rule) -> Option<Value> {
+    pub fn report(&self, rule: Rule) -> Option<Value> {
         let (study, _) = self.study.as_ref()?;
         let progress = study.progress();
         Some(json!({
             "done": progress.done,
             "of": progress.of,
-            "method": method.name(),
+            "method": rule.name(),
             "helper": self.has_helper(),
             "held": self.held,
             "begun": self.begun,
-            "own": self.own(method),
+            "own": self.own(rule),
         }))
     }
 }

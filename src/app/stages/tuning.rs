@@ -49,8 +49,8 @@ pub struct Named {
 }
 
 impl Named {
-    fn of(method: Rule, study: &Study) -> Self {
-        Self::by(method, study.spec().scenario.detection.xi1_rule)
+    fn of(rule: Rule, study: &Study) -> Self {
+        Self::by(rule, study.spec().scenario.detection.xi1_rule)
     }
 
     fn by(method: Rule, xi1_rule: Xi1Rule) -> Self {
@@ -96,25 +96,25 @@ struct View<'a> {
 
 impl View<'_> {
     fn curve(&self) -> &[Point] {
-        &self.derived.curves[self.tuning.method as usize]
+        &self.derived.curves[self.tuning.rule as usize]
     }
 
     fn own(&self) -> Option<&Point> {
-        self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
+        self.derived.own[self.tuning.rule as usize].map(|level| &self.curve()[level])
     }
 
     /// The threshold that is set; [`Self::own`] is what the nearest one that was counted comes to.
     fn setting(&self) -> Option<f64> {
-        self.derived.settings[self.tuning.method as usize]
+        self.derived.settings[self.tuning.rule as usize]
     }
 
-    /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
+    /// Takes a threshold of the chosen rule. Joint forces are not filtered: with theirs, the length stays.
     fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
-        let method = self.tuning.method;
-        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Rule::Jfd) });
+        let rule = self.tuning.rule;
+        out.push(Command::Take { rule, threshold, length: length.filter(|_| rule != Rule::Jfd) });
     }
 
-    /// Takes a level of the chosen method.
+    /// Takes a level of the chosen rule.
     fn take(&self, level: usize, length: Option<u64>, out: &mut Vec<Command>) {
         let Some(point) = self.curve().get(level) else { return };
         self.take_threshold(point.threshold, length, out);
@@ -170,7 +170,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
 /// The command that makes this study, with all its numbers.
 fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
-    let lengths = inputs.tuner.shown(inputs.tuning.method).map_or(&[][..], |(_, cells, _)| &cells.lengths);
+    let lengths = inputs.tuner.shown(inputs.tuning.rule).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
     let (scenario, hint) = if base == inputs.run.plan.scenario() {
         (format!("--preset {name}"), "")
@@ -186,10 +186,10 @@ fn command(inputs: &Inputs<'_>) -> String {
 
 fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> Derived {
     let (tuner, tuning) = (inputs.tuner, inputs.tuning);
-    let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
+    let wish = Wish { rule: tuning.rule, false_alarm_rate: tuning.wish };
     // Joint forces are not filtered: one length says it all.
     let lengths =
-        if tuning.method == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
+        if tuning.rule == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
     Derived {
         version,
         tuning,
@@ -197,7 +197,7 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
         own: Rule::ALL.iter().map(|&rule| tuner.level(rule)).collect(),
         settings: Rule::ALL.iter().map(|&rule| tuner.setting(rule)).collect(),
         verdict: recommend_among(study, lengths, &wish),
-        beside: words::beside(tuner, tuning.method),
+        beside: words::beside(tuner, tuning.rule),
     }
 }
 
@@ -206,7 +206,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
     let tuning = view.tuning;
     let names: Vec<_> = Rule::ALL.iter().map(|&rule| chart::name(rule)).collect();
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
-        ("Alarm by", names, tuning.method as usize, 280.0),
+        ("Alarm by", names, tuning.rule as usize, 280.0),
         (
             "False alarms, at most",
             WISHES.map(|(_, name)| name).to_vec(),
@@ -234,7 +234,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
         let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
         if let Some(picked) = segmented(ui, place, label, &options, chosen) {
             out.push(Command::Tune(match k {
-                0 => Tuning { method: Rule::ALL[picked], ..tuning },
+                0 => Tuning { rule: Rule::ALL[picked], ..tuning },
                 1 => Tuning { wish: WISHES[picked].0, ..tuning },
                 _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
             }));

@@ -4,7 +4,7 @@ use crate::cli::output::{Failure, NewFile, finish_csv, write_record};
 use centrode_core::chart::csv::cell;
 use centrode_core::scenario::Override;
 use centrode_core::study::tuning::Study;
-use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::watch::Rule;
 
 /// Columns after those of the swept keys. Thresholds are ξ2 in m, or ξ1 in N·m, or k where ξ1 follows the shape.
@@ -47,10 +47,10 @@ pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
     for (k, settings) in study.cells().iter().enumerate() {
         let values: Vec<String> = settings.set.iter().map(|set| set.written().to_owned()).collect();
         let contact = study.contact_time(k).map_or_else(String::new, cell);
-        for &method in Rule::ALL {
-            for point in study.curve(k, method) {
+        for &rule in Rule::ALL {
+            for point in study.curve(k, rule) {
                 let mut row = values.clone();
-                row.extend([method.name().to_owned(), cell(point.threshold)]);
+                row.extend([rule.name().to_owned(), cell(point.threshold)]);
                 let alarms = point.false_alarms;
                 row.push(alarms.rate.of.to_string());
                 row.extend(rate(&alarms.rate));
@@ -72,6 +72,6 @@ pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
     finish_csv(csv)
 }
 
-fn rate(rate: &Rate) -> [String; 4] {
+fn rate(rate: &Share) -> [String; 4] {
     [rate.count.to_string(), cell(rate.rate), cell(rate.low), cell(rate.high)]
 }

@@ -1,6 +1,6 @@
 //! The axes of a panel: ranges, grid, numbers and names; the bar beside a map.
 
-use super::{Align, Frame, Ink, Look, Paint, Pen, Shape};
+use super::{Align, Frame, Ink, Item, Look, Paint, Pen};
 use crate::chart::clip::Rect;
 use crate::chart::font::width;
 use crate::chart::scale::Scale;
@@ -237,7 +237,7 @@ impl Pen<'_> {
             let share = map.share(value((k as f64 + 0.5) / PIECES as f64));
             // A hair of overlap, so that no seam shows.
             let piece = Rect { top: to, bottom: (from + 0.04 * t).min(bar.bottom), ..bar };
-            self.add(Shape::Fill(piece, Ink::Map(share).into()));
+            self.add(Item::Fill(piece, Ink::Map(share).into()));
         }
         for tick in self.bar_marks(map, &scale) {
             let y = scale.at(tick.value);

@@ -24,7 +24,7 @@ const SAME: f64 = 0.004;
 
 impl Pen<'_> {
     /// A mark of a role, with its edge.
-    pub(super) fn mark(&mut self, at: Point, form: Form, role: Role, edge: Ink) {
+    pub(super) fn mark(&mut self, at: Spot, form: Form, role: Role, edge: Ink) {
         let radius = match form {
             Form::Triangle => 0.43,
             Form::Circle => 0.3,
@@ -32,18 +32,18 @@ impl Pen<'_> {
             Form::Ring => 0.62,
             Form::Diamond => 0.46,
         };
-        self.add(Shape::Mark(at, form, radius * self.t, Ink::Role(role).into(), edge));
+        self.add(Item::Mark(at, form, radius * self.t, Ink::Role(role).into(), edge));
     }
 
     /// The cells of a map and its level line.
     pub(super) fn map(&mut self, map: &Map, frame: &Frame) {
         let (x, y) = (map.x.map(|x| frame.x.at(x)), map.y.map(|y| frame.y.at(y)));
         let rect = Rect { left: x[0].min(x[1]), right: x[0].max(x[1]), top: y[0].min(y[1]), bottom: y[0].max(y[1]) };
-        self.add(Shape::Map(rect, self.k));
+        self.add(Item::Map(rect, self.k));
         let line = joined(&map.line);
         for (wide, paint) in [(0.3, Paint { ink: Ink::Black, opacity: VEIL }), (0.15, Ink::White.into())] {
             for piece in &line {
-                let points: Vec<Point> = piece.iter().map(|point| frame.at(*point)).collect();
+                let points: Vec<Spot> = piece.iter().map(|point| frame.at(*point)).collect();
                 for part in frame.data.inside(&points) {
                     self.line(&part, paint, wide * self.t, None);
                 }
@@ -58,10 +58,10 @@ impl Pen<'_> {
             let paint = Paint { ink: Ink::Role(band.role), opacity: if band.faint { FAINT * BAND } else { BAND } };
             let gap = |edges: &[[f64; 2]; 2]| edges.iter().flatten().any(|value| value.is_nan());
             for stretch in band.edges.split(gap).filter(|stretch| stretch.len() > 1) {
-                let place = |edges: &[Point; 2]| edges.map(|point| frame.data.nearest(frame.at(point)));
-                let mut edges: Vec<[Point; 2]> = stretch.iter().map(place).collect();
+                let place = |edges: &[Spot; 2]| edges.map(|point| frame.data.nearest(frame.at(point)));
+                let mut edges: Vec<[Spot; 2]> = stretch.iter().map(place).collect();
                 edges.dedup();
-                self.add(Shape::Band(edges, paint));
+                self.add(Item::Band(edges, paint));
             }
         }
         for bars in &panel.bars {
@@ -207,7 +207,7 @@ impl Pen<'_> {
             Style::Rings => Form::Ring,
             Style::Diamonds => Form::Diamond,
         };
-        let mut last: Option<Point> = None;
+        let mut last: Option<Spot> = None;
         for &at in points.iter().filter(|at| frame.data.holds(**at)) {
             // Marks on top of each other say less than marks apart.
             if !series.every && last.is_some_and(|last| hypot(last[0] - at[0], last[1] - at[1]) < CROWDED * t) {
@@ -224,8 +224,8 @@ impl Pen<'_> {
             if form == Form::Ring && edge == Ink::White {
                 // On a map no one colour stands out everywhere.
                 let dark = Paint { ink: Ink::Black, opacity: VEIL };
-                self.add(Shape::Mark(at, form, 0.69 * t, dark, edge));
-                self.add(Shape::Mark(at, form, 0.6 * t, Ink::White.into(), edge));
+                self.add(Item::Mark(at, form, 0.69 * t, dark, edge));
+                self.add(Item::Mark(at, form, 0.6 * t, Ink::White.into(), edge));
             } else {
                 self.mark(at, form, series.role, edge);
             }
@@ -271,7 +271,7 @@ impl Pen<'_> {
                 let left = right - width(&rung.name, 0.85 * t, false);
                 let behind =
                     Rect { left: left - 0.3 * t, right: right + 0.3 * t, top: middle - half, bottom: middle + half };
-                self.add(Shape::Fill(behind, Paint { ink: Ink::Black, opacity: VEIL }));
+                self.add(Item::Fill(behind, Paint { ink: Ink::Black, opacity: VEIL }));
                 let look = Look { size: 0.85 * t, ink: Ink::White, align: Align::Right, ..Look::PLAIN };
                 self.text(&rung.name, [right, middle], look);
             }
@@ -280,10 +280,10 @@ impl Pen<'_> {
 }
 
 /// Points without those that lie on the one before; both ends stay.
-fn thinned(points: &[Point], same: f64) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::with_capacity(points.len());
+fn thinned(points: &[Spot], same: f64) -> Vec<Spot> {
+    let mut kept: Vec<Spot> = Vec::with_capacity(points.len());
     for (k, point) in points.iter().enumerate() {
-        let near = |last: &Point| (last[0] - point[0]).abs() < same && (last[1] - point[1]).abs() < same;
+        let near = |last: &Spot| (last[0] - point[0]).abs() < same && (last[1] - point[1]).abs() < same;
         if k + 1 == points.len() || !kept.last().is_some_and(near) {
             kept.push(*point);
         }
@@ -292,8 +292,8 @@ fn thinned(points: &[Point], same: f64) -> Vec<Point> {
 }
 
 /// Pieces of a level line as lines: pieces that follow each other are joined.
-fn joined(pieces: &[[Point; 2]]) -> Vec<Vec<Point>> {
-    let mut lines: Vec<Vec<Point>> = Vec::new();
+fn joined(pieces: &[[Spot; 2]]) -> Vec<Vec<Spot>> {
+    let mut lines: Vec<Vec<Spot>> = Vec::new();
     for [a, b] in pieces {
         match lines.last_mut() {
             Some(line) if line.last() == Some(a) => line.push(*b),

@@ -1,7 +1,7 @@
 //! What the signs of a panel mean, in rows above its data.
 
-use super::{Form, Ink, Look, Paint, Pen, Shape};
-use crate::chart::clip::{Point, Rect};
+use super::{Form, Ink, Item, Look, Paint, Pen};
+use crate::chart::clip::{Rect, Spot};
 use crate::chart::font::width;
 use crate::chart::{Panel, Role, Style};
 
@@ -64,7 +64,7 @@ impl Pen<'_> {
     }
 
     /// Entries in rows, the first of which has its middle at `y`.
-    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Point, room: f64) {
+    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Spot, room: f64) {
         let t = self.t;
         let entries = entries(panel);
         let rows = self.rows(&entries, room);
@@ -76,7 +76,7 @@ impl Pen<'_> {
         }
     }
 
-    fn sign(&mut self, sign: Sign, [x, y]: Point) {
+    fn sign(&mut self, sign: Sign, [x, y]: Spot) {
         let t = self.t;
         let line = [[x - 1.15 * t, y], [x + 1.15 * t, y]];
         match sign {

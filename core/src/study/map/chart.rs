@@ -1,6 +1,6 @@
 //! The map as a chart: one panel for each method, with the line that its setting draws, and the contact that is set.
 
-use super::Map;
+use super::ContactMap;
 use super::contour::contour;
 use crate::chart::notation::number;
 use crate::chart::ticks::Steps;
@@ -15,9 +15,9 @@ pub const MOST: f64 = 0.5;
 /// A threshold that a map shows for every contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// [`Map::deviation`]: the largest ξ2 that finds the contact.
+    /// [`ContactMap::deviation`]: the largest ξ2 that finds the contact.
     Centrode,
-    /// [`Map::epsilon`]: the largest ε_τ at which joint forces show it.
+    /// [`ContactMap::epsilon`]: the largest ε_τ at which joint forces show it.
     Forces,
 }
 
@@ -54,7 +54,7 @@ impl Kind {
 
     /// Its values, cell by cell, SI.
     #[must_use]
-    pub fn values(self, map: &Map) -> &[f64] {
+    pub fn values(self, map: &ContactMap) -> &[f64] {
         match self {
             Self::Centrode => &map.deviation,
             Self::Forces => &map.epsilon,
@@ -122,7 +122,7 @@ fn edges(middles: &[f64]) -> [f64; 2] {
     [middles.first().map_or(0.0, |first| first - half), middles.last().map_or(1.0, |last| last + half)]
 }
 
-fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
+fn panel(map: &ContactMap, plan: &Plan, kind: Kind) -> Panel {
     let scenario = plan.scenario();
     let (unit, scale) = kind.unit();
     let values = kind.values(map);

@@ -1,6 +1,6 @@
 //! What repeats of one scenario came to: whole numbers, so that the order in which they are added changes nothing.
 
-use super::rate::{Rate, wilson};
+use super::rate::{Share, wilson};
 use super::watch::{Firsts, NEVER, Rule};
 use libm::{ceil, sqrt};
 use serde::{Deserialize, Serialize};
@@ -112,7 +112,7 @@ impl Count {
 pub struct FalseAlarms {
     /// Runs with an alarm.
     #[serde(flatten)]
-    pub rate: Rate,
+    pub rate: Share,
     /// Mean time to false alarm, s: the time watched, from arming to alarm or end, for each alarm (the estimate under a
     /// constant hazard, which counts silent runs too). NaN without an alarm.
     pub mean_time: f64,
@@ -126,11 +126,11 @@ pub struct FalseAlarms {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Found {
     /// Alarms before contact, of all runs.
-    pub early: Rate,
+    pub early: Share,
     /// Contacts found in time, of those met without an alarm before.
-    pub detected: Rate,
+    pub detected: Share,
     /// Contacts not found in time, of the same: never, or late.
-    pub missed: Rate,
+    pub missed: Share,
     /// Alarms after contact that came too late; they are among the missed.
     pub late: u64,
     /// Mean delay of those found, s; NaN of none.
@@ -155,7 +155,7 @@ pub fn false_alarms(Counted { runs, count }: Counted<'_>, clock: &Clock) -> Fals
     let watched = (count.early_samples + silent * whole) as f64 / clock.rate;
     let alarms = count.early as f64;
     let mean_time = if count.early > 0 { watched / alarms } else { f64::NAN };
-    FalseAlarms { rate: Rate::new(count.early, runs), mean_time, mean_time_error: mean_time / sqrt(alarms), watched }
+    FalseAlarms { rate: Share::new(count.early, runs), mean_time, mean_time_error: mean_time / sqrt(alarms), watched }
 }
 
 /// Contacts found and missed, from the runs with contact.
@@ -171,9 +171,9 @@ pub fn detection(Counted { runs, count }: Counted<'_>, clock: &Clock) -> Found {
     let [low, high] = if met > 0 { wilson(0.5, met as f64) } else { [0.5; 2] };
     let quantile = |share: f64| seconds(quantile(&count.found, met, share));
     Found {
-        early: Rate::new(count.early, runs),
-        detected: Rate::new(found, met),
-        missed: Rate::new(met - found, met),
+        early: Share::new(count.early, runs),
+        detected: Share::new(found, met),
+        missed: Share::new(met - found, met),
         late: count.late,
         mean: if found > 0 { seconds(sum as f64 / n) } else { f64::NAN },
         mean_error: if found > 1 { seconds(sqrt(spread as f64 / (n * n * (n - 1.0)))) } else { f64::NAN },

@@ -32,14 +32,14 @@ pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, kept: &mut Option<Picture
     show(ui, rect, make, chart::delay, (view, kept), out);
 }
 
-/// All methods; the chosen one lies on top of the others, which stand back.
+/// All rules; the chosen one lies on top of the others, which stand back.
 fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
-    let chosen = view.tuning.method;
-    let others = Rule::ALL.iter().copied().filter(|method| *method != chosen);
-    let curve = |method: Rule| {
-        let (role, dashed) = look(method);
-        let points = &view.derived.curves[method as usize];
-        Curve { name: chart::name(method).into(), role, dashed, faint: method != chosen, points }
+    let chosen = view.tuning.rule;
+    let others = Rule::ALL.iter().copied().filter(|rule| *rule != chosen);
+    let curve = |rule: Rule| {
+        let (role, dashed) = look(rule);
+        let points = &view.derived.curves[rule as usize];
+        Curve { name: chart::name(rule).into(), role, dashed, faint: rule != chosen, points }
     };
     others.chain([chosen]).map(curve).collect()
 }
@@ -96,7 +96,7 @@ fn touch(ui: &mut Ui, place: &Place, title: &str, at: At, view: &View<'_>, out: 
 
 /// A threshold and what it comes to.
 pub fn note(view: &View<'_>, point: &Point, theme: &Theme) -> Vec<egui::text::LayoutJob> {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let alarms = point.false_alarms.rate;
     let mut lines = vec![
         job(&format!("{} = {} {}", named.symbol, digits(&named, point.threshold), named.unit), 11.5, theme.ink),

@@ -75,7 +75,7 @@ fn touch(
     own: Option<[f64; 2]>,
     out: &mut Vec<Command>,
 ) {
-    let (method, lengths) = (view.tuning.method, &view.cells.lengths);
+    let (rule, lengths) = (view.tuning.rule, &view.cells.lengths);
     let response = ui.interact(place.data(), ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, heading));
@@ -89,12 +89,12 @@ fn touch(
     let near = |finger: Pos2| own.is_some_and(|own| place.at(own).distance(finger) < REACH);
     if let Some(at) = taken(ui, &response, near) {
         if let Some((length, cell, level)) = under(at) {
-            view.take_threshold(view.study.levels(cell, method)[level], Some(length), out);
+            view.take_threshold(view.study.levels(cell, rule)[level], Some(length), out);
         }
     } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged())
         && let Some((length, cell, level)) = under(at)
     {
-        let mut lines = curves::note(view, &view.study.point(cell, method, level), &view.theme);
+        let mut lines = curves::note(view, &view.study.point(cell, rule, level), &view.theme);
         lines.insert(1, job(&format!("N = {length}"), 11.5, view.theme.ink));
         notation::note(ui.painter(), &view.theme, at, place.data(), lines);
     }
@@ -112,8 +112,8 @@ fn nearest(levels: &[f64], threshold: f64) -> usize {
 
 /// The median delay, s, and whether false alarms are as rare as wished.
 fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
-    let (study, method) = (view.study, view.tuning.method);
-    let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
+    let (study, rule) = (view.study, view.tuning.rule);
+    let point = study.point(cell, rule, nearest(study.levels(cell, rule), threshold));
     let quiet = point.false_alarms.rate.high <= view.tuning.wish;
     let delay = point.detection.map(|seen| seen.median).filter(|delay| !delay.is_nan());
     delay.filter(|_| point.false_alarms.rate.of > 0).map(|delay| (delay, quiet))

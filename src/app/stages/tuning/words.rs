@@ -4,7 +4,7 @@ use crate::app::charts::notation::number;
 use crate::app::stages::tuner::{LATE, Tuner};
 use crate::app::stages::tuning::{Named, View};
 use centrode_core::scenario::{Place, Thresholds};
-use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::recommend::Verdict;
 use centrode_core::study::tuning::tally::Found;
 use centrode_core::study::tuning::watch::Rule;
@@ -21,7 +21,7 @@ pub fn wished(share: f64) -> String {
 }
 
 /// `1.0 to 8.5 %`.
-pub fn interval(rate: &Rate) -> String {
+pub fn interval(rate: &Share) -> String {
     format!("{} to {} %", percent(rate.low), percent(rate.high))
 }
 
@@ -35,7 +35,7 @@ fn place(view: &View<'_>) -> String {
 
 /// What the thresholds that are set achieve.
 pub fn now(view: &View<'_>) -> String {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let (Some(point), Some(threshold)) = (view.own(), view.setting()) else {
         return format!("{} is off, so nothing is detected.", named.symbol);
     };
@@ -67,7 +67,7 @@ pub fn now(view: &View<'_>) -> String {
 }
 
 fn found(seen: &Found, place: &str) -> String {
-    let Rate { count, of, .. } = seen.detected;
+    let Share { count, of, .. } = seen.detected;
     if of == 0 {
         return " Every run gave an alarm before the contact.".into();
     }
@@ -145,12 +145,12 @@ pub fn digits(named: &Named, threshold: f64) -> String {
 /// What to take, and its level and filter length; or why nothing.
 pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
     let wish = wished(view.tuning.wish);
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let text = match &view.derived.verdict {
         Verdict::Take { cell, level, point } => {
             let length = view.study.cells()[*cell].scenario.filter.length;
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
-            let filter = if view.tuning.method == Rule::Jfd { String::new() } else { format!(", N = {length}") };
+            let filter = if view.tuning.rule == Rule::Jfd { String::new() } else { format!(", N = {length}") };
             let text = format!(
                 "Soonest with at most {wish} % false alarms: {}{filter} detects it after {} s, and {} of {} runs without contact gave a false alarm ({}).",
                 setting(&named, point.threshold),
