@@ -7,7 +7,7 @@ use centrode_core::chart::csv::cell;
 use centrode_core::scenario::Scenario;
 use centrode_core::study::Job;
 use centrode_core::study::table2::chart::with_words;
-use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
+use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};

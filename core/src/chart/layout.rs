@@ -139,7 +139,7 @@ impl Form {
 
     /// The corners of a form of a radius around a place; none where it is round.
     #[must_use]
-    pub fn corners(self, [x, y]: Point, r: f64) -> Vec<Point> {
+    pub fn corners(self, [x, y]: Spot, r: f64) -> Vec<Spot> {
         match self {
             Self::Triangle => vec![[x, y - r], [x + 0.87 * r, y + 0.6 * r], [x - 0.87 * r, y + 0.6 * r]],
             Self::Diamond => vec![[x, y - r], [x + r, y], [x, y + r], [x - r, y]],
@@ -213,7 +213,7 @@ pub fn layout(chart: &Chart, page: &Page) -> Drawing {
 
 /// What moves over a panel that has been laid out: the shapes of a few series in its frame. `on_map` says whether a map is behind.
 #[must_use]
-pub fn over(frame: &Frame, series: &[Series], page: &Page, on_map: bool) -> Vec<Shape> {
+pub fn over(frame: &Frame, series: &[Series], page: &Page, on_map: bool) -> Vec<Item> {
     let mut drawing = Drawing { size: page.size, shapes: Vec::new(), frames: Vec::new() };
     let mut pen = Pen { drawing: &mut drawing, page, t: page.text, k: 0 };
     pen.all_series(series, frame, if on_map { Ink::White } else { Ink::Ground });
@@ -415,7 +415,7 @@ mod tests {
         let drawing = of(Panel { series, ..Panel::new(x, y) }, &page);
         let frame = drawing.frames[0];
         let curve = drawing.shapes.iter().find_map(|shape| match shape {
-            Shape::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Sensor) => Some(points),
+            Item::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Sensor) => Some(points),
             _ => None,
         });
         let curve = curve.expect("a curve");
@@ -438,7 +438,7 @@ mod tests {
         let frame = drawing.frames[0];
         let text = |wanted: &str| {
             let texts =
-                drawing.shapes.iter().filter_map(|shape| if let Shape::Text(text) = shape { Some(text) } else { None });
+                drawing.shapes.iter().filter_map(|shape| if let Item::Text(text) = shape { Some(text) } else { None });
             texts.filter(|text| text.text == wanted).map(|text| text.at).next().expect("a text")
         };
         assert!(text("Disk 1")[1] < text("Disk 2")[1] && text("Disk 2")[1] == frame.y.at(1.0));
@@ -446,10 +446,10 @@ mod tests {
         assert!(beside[0] > frame.data.right && beside[0] + width("found 3 of 100", 11.0, false) <= page.size[0]);
         for shape in &drawing.shapes {
             match shape {
-                Shape::Fill(rect, paint) if paint.ink == Ink::Role(Role::Sensor) => {
+                Item::Fill(rect, paint) if paint.ink == Ink::Role(Role::Sensor) => {
                     assert!(rect.top >= frame.data.top && rect.bottom <= frame.data.bottom, "{rect:?}");
                 }
-                Shape::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Bound) => {
+                Item::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Bound) => {
                     assert!(points.iter().all(|point| point[0] <= frame.data.right + 1e-9), "{points:?}");
                 }
                 _ => {}

@@ -248,7 +248,7 @@ mod tests {
     #[test]
     fn every_value_is_drawn_once_and_what_is_not_judged_stands_back() {
         let run = run("bench");
-        for method in Method::ALL {
+        for &method in Method::ALL {
             let panel = statistic(&run, method, 0.1);
             let [.., still, judged] = &panel.series[..] else { panic!("{method:?}") };
             assert!(still.faint && !judged.faint);
@@ -265,7 +265,7 @@ mod tests {
         let run = run("bench");
         let (events, crossings) = (&run.judged.events, run.crossings());
         assert!(crossings.len() > events.len(), "noise crosses a threshold more often than it raises an alarm");
-        for method in Method::ALL {
+        for &method in Method::ALL {
             let marks = super::events(&run, method);
             let own = events.iter().filter(|event| event.detector == method);
             assert_eq!(marks.len() - 1, own.clone().count());

@@ -6,7 +6,7 @@ use crate::app::command::Command;
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use centrode_core::scenario::{Contact, Place as At, Scenario};
-use centrode_core::study::map::Map;
+use centrode_core::study::map::ContactMap;
 use centrode_core::study::map::chart::{Kind, target, without_contact};
 use egui::{CursorIcon, Label, Rect, Sense, Ui};
 

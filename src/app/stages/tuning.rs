@@ -124,7 +124,7 @@ impl View<'_> {
 /// Shows the study.
 pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.method) else { return };
+    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.rule) else { return };
     let TuningState { derived, operating, delay, places, lengths } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
         *derived = Some(derive(study, cells, version, inputs));

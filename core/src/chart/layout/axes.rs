@@ -145,7 +145,7 @@ impl Pen<'_> {
             let top = if span.low { data.bottom - 0.38 * t } else { data.top };
             let rect = Rect { left: ends[0].min(ends[1]), right: ends[0].max(ends[1]), top, ..data };
             let opacity = if span.low { 1.0 } else { super::data::SHADE };
-            self.add(Shape::Fill(rect, Paint { ink: Ink::Role(span.role), opacity }));
+            self.add(Item::Fill(rect, Paint { ink: Ink::Role(span.role), opacity }));
         }
         let marks = self.marks_of(&panel.x, &frame.x, 0);
         let last = marks.len().saturating_sub(1);

@@ -1,7 +1,7 @@
 //! What stands between the axes: map, bands, curves and marks.
 
-use super::{Align, Form, Frame, Ink, Look, Paint, Pen, Shape};
-use crate::chart::clip::{Point, Rect};
+use super::{Align, Form, Frame, Ink, Item, Look, Paint, Pen};
+use crate::chart::clip::{Rect, Spot};
 use crate::chart::decimate::{Column, columns, spans};
 use crate::chart::font::width;
 use crate::chart::{Intervals, Map, Panel, Role, Series, Style};
@@ -72,7 +72,7 @@ impl Pen<'_> {
                 let gap = (0.1 * (right - left)).min(0.05 * self.t);
                 let (top, bottom) = (a[1].min(b[1]), a[1].max(b[1]));
                 let rect = Rect { left: left + gap, right: right - gap, top, bottom };
-                self.add(Shape::Fill(rect, Ink::Role(bars.role).into()));
+                self.add(Item::Fill(rect, Ink::Role(bars.role).into()));
             }
         }
         self.all_series(&panel.series, frame, edge);
@@ -100,7 +100,7 @@ impl Pen<'_> {
             }
             let gap = |point: &[f64; 2]| point.iter().any(|value| !value.is_finite());
             for stretch in series.points.split(gap).filter(|stretch| !stretch.is_empty()) {
-                let points: Vec<Point> = stretch.iter().map(|point| frame.at(*point)).collect();
+                let points: Vec<Spot> = stretch.iter().map(|point| frame.at(*point)).collect();
                 self.series(series, &points, frame, edge);
             }
         }
@@ -122,7 +122,7 @@ impl Pen<'_> {
     /// An unbroken stretch of columns as a line.
     fn stretch(&mut self, series: &Series, stretch: &[Column], frame: &Frame) {
         let pixel = self.page.pixel;
-        let mut points: Vec<Point> = Vec::with_capacity(2 * stretch.len());
+        let mut points: Vec<Spot> = Vec::with_capacity(2 * stretch.len());
         for column in stretch {
             // Less than a pixel of spread is one point: fewer to draw, and smoother.
             if column.high - column.low < pixel {
@@ -137,7 +137,7 @@ impl Pen<'_> {
         self.curve(series, &points, frame);
     }
 
-    fn curve(&mut self, series: &Series, points: &[Point], frame: &Frame) {
+    fn curve(&mut self, series: &Series, points: &[Spot], frame: &Frame) {
         let t = self.t;
         let faint = if self.page.sides.is_some() { PALE } else { FAINT };
         let paint = Paint { ink: Ink::Role(series.role), opacity: if series.faint { faint } else { 1.0 } };
@@ -186,15 +186,15 @@ impl Pen<'_> {
             let half = 0.5 * self.page.pixel;
             let (left, right) = ((from - half).max(data.left), (to + half).min(data.right));
             let bar = Rect { left, right, top: data.top, bottom: data.top + 0.3 * t };
-            self.add(Shape::Fill(bar, Paint { ink, opacity: 0.45 }));
+            self.add(Item::Fill(bar, Paint { ink, opacity: 0.45 }));
             if to - from > 0.8 * t {
                 let at = [f64::midpoint(from, to), data.top + 0.72 * t];
-                self.add(Shape::Mark(at, Form::Triangle, 0.4 * t, ink.into(), ink));
+                self.add(Item::Mark(at, Form::Triangle, 0.4 * t, ink.into(), ink));
             }
         }
     }
 
-    fn series(&mut self, series: &Series, points: &[Point], frame: &Frame, edge: Ink) {
+    fn series(&mut self, series: &Series, points: &[Spot], frame: &Frame, edge: Ink) {
         let t = self.t;
         let form = match series.style {
             Style::Line | Style::Thin | Style::Heavy | Style::Dashed => {

@@ -101,7 +101,7 @@ impl Pen<'_> {
                 let half = if matches!(sign, Sign::Span(_, true)) { 0.19 } else { 0.45 };
                 let opacity = if matches!(sign, Sign::Span(_, false)) { super::data::SHADE } else { 1.0 };
                 let rect = Rect { left: x - 1.15 * t, right: x + 1.15 * t, top: y - half * t, bottom: y + half * t };
-                self.add(Shape::Fill(rect, Paint { ink: Ink::Role(role), opacity }));
+                self.add(Item::Fill(rect, Paint { ink: Ink::Role(role), opacity }));
             }
         }
     }

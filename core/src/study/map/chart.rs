@@ -73,7 +73,7 @@ impl Kind {
 
 /// The chart of a map of the plan's motion; line and contact are the plan's own.
 #[must_use]
-pub fn chart(map: &Map, plan: &Plan) -> Chart {
+pub fn chart(map: &ContactMap, plan: &Plan) -> Chart {
     let mut chart = without_contact(map, plan);
     chart.panels.iter_mut().for_each(|panel| panel.series.extend(target(plan)));
     chart
@@ -88,7 +88,7 @@ pub fn target(plan: &Plan) -> Option<Series> {
 
 /// The same chart without the contact, which does not change the map.
 #[must_use]
-pub fn without_contact(map: &Map, plan: &Plan) -> Chart {
+pub fn without_contact(map: &ContactMap, plan: &Plan) -> Chart {
     let scenario = plan.scenario();
     let detection = &scenario.detection;
     let made = words::caption(&[

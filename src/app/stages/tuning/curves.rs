@@ -52,7 +52,7 @@ fn show(
     (view, kept): (&View<'_>, &mut Option<Picture<Key>>),
     out: &mut Vec<Command>,
 ) {
-    let chosen = view.tuning.method;
+    let chosen = view.tuning.rule;
     let key = (view.derived.version, view.tuning);
     let make = || {
         let mut panel = make();

@@ -23,7 +23,7 @@ pub fn histogram(
     kept: &mut Option<Picture<Key>>,
     out: &mut Vec<Command>,
 ) {
-    let (theme, rule) = (&view.theme, view.tuning.method);
+    let (theme, rule) = (&view.theme, view.tuning.rule);
     let (contacts, threshold) = (&view.cells.contacts, view.own().map(|point| point.threshold));
     // The median of the contact that is set: what a drag moves.
     let median = view.own().and_then(|point| point.detection).map(|seen| seen.median).filter(|delay| !delay.is_nan());

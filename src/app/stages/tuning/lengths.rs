@@ -56,7 +56,7 @@ pub fn map(
 
 /// The axes of the map: a column for each filter length, a row for each threshold.
 fn panel(view: &View<'_>, map: Map) -> Panel {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let tick = |(k, (length, _)): (usize, &(u64, usize))| Tick { value: k as f64, text: length.to_string() };
     let ticks = view.cells.lengths.iter().enumerate().map(tick).collect();
     let x = Axis { range: Some(map.x), ticks, ..Axis::new("Filter length N", "1", "1", 1.0) };
@@ -84,7 +84,7 @@ fn touch(
         let &(length, cell) = lengths.get((column.round().max(0.0) as usize).min(lengths.len().checked_sub(1)?))?;
         // Levels that are drawn: the evenly spaced ones.
         let row = ((wanted / step).round() as usize).clamp(1, rows.max(1));
-        Some((length, cell, nearest(view.study.levels(cell, method), row as f64 * step)))
+        Some((length, cell, nearest(view.study.levels(cell, rule), row as f64 * step)))
     };
     let near = |finger: Pos2| own.is_some_and(|own| place.at(own).distance(finger) < REACH);
     if let Some(at) = taken(ui, &response, near) {
@@ -121,7 +121,7 @@ fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
 
 /// The step between the thresholds drawn, SI: they are even, but for the coarse ones and the scenario's own.
 fn step(view: &View<'_>) -> f64 {
-    let levels = view.study.levels(0, view.tuning.method);
+    let levels = view.study.levels(0, view.tuning.rule);
     levels.windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(0.0, f64::max)
 }
 
