@@ -23,7 +23,7 @@ pub const FAINT: f64 = 0.28;
 /// let mut job = FigureJob::new(Number::Three, &Scenario::default())?;
 /// job.finish();
 /// let chart = job.chart();
-/// let drawing = layout(&chart, &Page { size: [640.0, 480.0], text: 12.0, words: true });
+/// let drawing = layout(&chart, &Page { words: true, ..Page::screen([640.0, 480.0], 12.0) });
 /// let text = svg(&drawing, &chart, &|_| [0, 0, 0]);
 /// assert!(text.starts_with("<svg") && text.contains("Least detectable joint force deviation"));
 /// # Ok::<(), centrode_core::scenario::ScenarioError>(())

@@ -68,7 +68,7 @@ impl Preset {
 ///
 /// let noisy = find("bench")?.scenario()?;
 /// assert!(noisy.tracker.position_noise > 0.0);
-/// assert!(find("bensh").expect_err("none of this name").to_string().contains("known are: bench, paper"));
+/// assert!(find("bensh").expect_err("none of this name").to_string().contains("known presets: bench, paper"));
 /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
 /// ```
 ///
