@@ -92,7 +92,7 @@ pub fn stage(
         body.min.y += source::LINE + 6.0;
     }
     if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
-        let said = format!("{} cannot be shown: {}.", inputs.stage.name(), refusal::told(&refused.clone().into()));
+        let said = format!("{} cannot be shown: {}.", inputs.stage.name(), refusal::told(refused));
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(body).id_salt("refused"));
         inner.add(egui::Label::new(notation::job(&said, 13.5, theme.error)).wrap());
         return;

@@ -260,7 +260,7 @@ mod tests {
             ("[robot]\ndisks = 3", &["robot.disks", "list"]),
             ("[contact]\ndisk = 4", &["contact.disk", "4", "1 to 3"]),
             ("[contact]\ndisk = -1", &["contact.disk", "-1", "number of a disk"]),
-            ("[contact]\ndisk = 1.5", &["contact.disk", "1.5", "whole"]),
+            ("[contact]\ndisk = 1.5", &["contact.disk", "1.5", "number of a disk"]),
             ("[contact]\narc_length = 0.031", &["contact.arc_length", "0.031", "0.03"]),
             ("[contact]\ndisk = 1\narc_length = 0.01", &["contact", "not both"]),
             ("[contact]\ntime = 1\nbend = 0.01", &["contact", "not both"]),
