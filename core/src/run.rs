@@ -1,7 +1,5 @@
 //! A simulated experiment and what is concluded from it: at once, or sample by sample.
 
-pub mod chart;
-
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
 use crate::detect::filter::FilteredMotion;

@@ -17,7 +17,8 @@ use crate::app::theme::Theme;
 use centrode_core::chart::layout::Page;
 use centrode_core::chart::{Chart, Series};
 use centrode_core::detect::Method;
-use centrode_core::run::{Run, chart};
+use centrode_core::run::Run;
+use centrode_core::study::course;
 use egui::{Painter, Rect, Ui, Vec2, pos2, vec2};
 use frame::{Frame, GUTTER, RIGHT, SMALL};
 use std::collections::BTreeMap;
@@ -93,15 +94,15 @@ fn in_place(
         return;
     }
     let hovered = state.hover.take();
-    let cursor = cursor.clamp(0.0, chart::end(run));
+    let cursor = cursor.clamp(0.0, course::end(run));
     let methods = Method::ALL.iter().copied().map(Some).chain([None]);
     for ((which, rect), method) in layout(area, beside).into_iter().enumerate().zip(methods) {
         let top = method.map(|method| top(state, (run, version), method));
         let bare = !beside && which + 1 < COUNT;
         let make = || {
             let mut panel = match (method, top) {
-                (Some(method), Some(top)) => chart::statistic(run, method, top),
-                _ => chart::angle(run),
+                (Some(method), Some(top)) => course::statistic(run, method, top),
+                _ => course::angle(run),
             };
             panel.x.bare = bare;
             Chart { panels: vec![panel], ..Chart::default() }
@@ -116,7 +117,7 @@ fn in_place(
             let frame = Frame::new(
                 rect,
                 &place,
-                method.map_or(180.0 / std::f64::consts::PI, |m| chart::measure(m).scale),
+                method.map_or(180.0 / std::f64::consts::PI, |m| course::measure(m).scale),
                 theme,
             );
             let (state, out) = (&mut *state, &mut *out);
@@ -141,7 +142,7 @@ fn top(state: &mut PlotState, (run, version): (&Run, u64), method: Method) -> f6
     match state.tops.get(&method) {
         Some((of, top)) if *of == key => *top,
         _ => {
-            let top = chart::top(run, method, threshold);
+            let top = course::top(run, method, threshold);
             state.tops.insert(method, (key, top));
             top
         }

@@ -8,7 +8,7 @@ use crate::app::charts::plots::axis::rounded;
 use crate::app::charts::plots::frame::{Frame, SMALL, TEXT};
 use crate::app::command::Command;
 use centrode_core::detect::{Event, Method};
-use centrode_core::run::chart::{Measure, measure};
+use centrode_core::study::course::{Measure, measure};
 use egui::{Align2, Color32, CursorIcon, FontId, Galley, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 /// Half the width in which the arming edge can be grabbed, points.

@@ -12,8 +12,8 @@ use centrode_core::chart::layout::Ink;
 use centrode_core::chart::{Role, Style};
 use centrode_core::detect::Method;
 use centrode_core::run::Sample;
-use centrode_core::run::chart::{Curve, Measure, curves, events, measure};
 use centrode_core::scenario::{Scenario, Threshold, Xi1Rule};
+use centrode_core::study::course::{Curve, Measure, curves, events, measure};
 use egui::{Color32, Ui};
 
 /// The threshold of a detector as a plot's line sets it: what it is, and whether it judges or something else in its place.

@@ -4,8 +4,8 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::{Axis, rounded};
 use crate::app::charts::plots::frame::TEXT;
-use centrode_core::run::chart::Measure;
 use centrode_core::scenario::Threshold;
+use centrode_core::study::course::Measure;
 use egui::{
     Align, Color32, CursorIcon, DragValue, FontId, Layout, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder,
 };

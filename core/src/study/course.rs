@@ -2,10 +2,10 @@
 
 pub mod range;
 
-use super::{Run, Sample};
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Panel, Role, Series, Span, Style, Vertical};
 use crate::detect::{Event, Method, Standing};
+use crate::run::{Run, Sample};
 use crate::scenario::{Thresholds, Xi1Rule};
 
 /// Room beyond the angles of the motion, as a share of their difference, and the least difference that counts, rad.
