@@ -111,7 +111,7 @@ fn page(state: &State, cursor: f64) -> Page {
         time: (!state.playing).then_some((cursor * 1e4).round() / 1e4),
         speed: state.speed,
         looping: state.looping,
-        rule: state.tuning.method.name(),
+        rule: state.tuning.rule.name(),
         false_alarms: state.tuning.wish,
         repeats: state.tuning.repeats as u64,
     }
@@ -119,7 +119,7 @@ fn page(state: &State, cursor: f64) -> Page {
 
 /// Whether the page can run a scenario; if not, why, by key.
 fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
-    memo::check(scenario).map_err(memo::Refusal::of_key)
+    memo::check(scenario)
 }
 
 impl App {
@@ -166,9 +166,9 @@ impl App {
             self.state.paper = self.state.stage;
         }
         (self.state.speed, self.state.looping) = (speed, looping);
-        let method = Rule::ALL.into_iter().find(|known| known.name() == rule).unwrap_or(Rule::Fcd);
+        let rule = Rule::ALL.iter().copied().find(|known| known.name() == rule).unwrap_or(Rule::Fcd);
         let repeats = usize::try_from(repeats).unwrap_or(Tuning::default().repeats);
-        self.state.tuning = Tuning { method, wish: false_alarms, repeats };
+        self.state.tuning = Tuning { rule, wish: false_alarms, repeats };
     }
 
     /// A file has come in, chosen or dropped; or why it could not be read.
@@ -178,7 +178,6 @@ impl App {
                 return Err("It is larger than 1 MiB, so it is no scenario".into());
             }
             let scenario = Draft::from_bytes(&bytes).and_then(Draft::finish);
-            let scenario = scenario.map_err(memo::Refusal::Impossible);
             let scenario = scenario.and_then(|scenario| memo::check(&scenario).map(|()| scenario));
             let scenario = scenario.map_err(|refused| refusal::told(&refused))?;
             Link::nearest(&scenario, page(&State { playing: true, ..self.state.clone() }, 0.0))

@@ -4,7 +4,8 @@
 //! at most [`MAX_CROSSINGS`] of them.
 
 use super::ScenarioArgs;
-use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
+use super::output::{Failure, NewFile, finish_csv, json, write_record};
+use centrode_core::chart::csv::cell;
 use centrode_core::detect::{Crossing, Detection, Event, Method};
 use centrode_core::run::{CHANNELS, Sample, Simulation};
 use centrode_core::scenario::{Plan, Scenario};

@@ -80,7 +80,7 @@ fn every_stage_has_a_name_in_links_and_the_defaults_agree() {
     let (state, shown) = (app(&page).state(), Shown::default());
     assert_eq!((state.stage.key(), state.speed, state.looping), (shown.view, shown.speed, shown.looping));
     let tuning = state.tuning;
-    assert_eq!((tuning.method.name(), tuning.wish), (shown.rule, shown.false_alarms));
+    assert_eq!((tuning.rule.name(), tuning.wish), (shown.rule, shown.false_alarms));
     assert_eq!(tuning.repeats as u64, shown.repeats);
     assert!(app(&page).notice().is_none() && state.playing);
 }

@@ -181,7 +181,7 @@ fn an_address_is_a_whole_one() {
 
 #[test]
 fn the_page_s_words_are_those_of_studies() {
-    assert_eq!(RULES, Rule::ALL.map(Rule::name));
+    assert!(RULES.iter().copied().eq(Rule::ALL.iter().map(|rule| rule.name())));
     assert!(MAX_REPEATS <= tuning::MAX_REPEATS as u64);
     for view in VIEWS {
         assert_eq!(whole(&format!("view={view}")).page.view, *view);

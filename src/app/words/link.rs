@@ -1,6 +1,5 @@
 //! What the page says of links and files that it could not take as they were.
 
-use crate::app::memo::Refusal;
 use crate::app::panels::notice::{Notice, Row};
 use crate::app::words::refusal;
 use centrode_core::scenario::keys::{self, Quantity, Units, Value};
@@ -25,7 +24,7 @@ pub fn notice(link: &str, broken: &[Broken]) -> Notice {
 
 fn row(broken: &Broken) -> Row {
     let why = sentence(&match &broken.why {
-        Why::Refused(refused) => refusal::told(&Refusal::Impossible(refused.clone())),
+        Why::Refused(refused) => refusal::told(refused),
         other => other.to_string(),
     });
     let written = if broken.written().is_empty() { "The whole link".into() } else { broken.written() };

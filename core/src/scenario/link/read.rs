@@ -5,7 +5,7 @@ use super::{Link, MAX_LINK, PAGE_KEYS, Page, VERSION, differences, is_address};
 use crate::scenario::keys::{self, Allowed, GROUPS, Key, Quantity, Value};
 use crate::scenario::preset::{self, PRESETS, Preset};
 use crate::scenario::refusal::Refused;
-use crate::scenario::text::{number, unknown};
+use crate::scenario::text::number;
 use crate::scenario::{Plan, Scenario, ScenarioError};
 use std::fmt;
 use thiserror::Error;
@@ -278,7 +278,7 @@ fn culprit(
 }
 
 fn unknown_key(name: &str) -> ScenarioError {
-    match unknown(name) {
+    match keys::unknown(name) {
         ScenarioError::UnknownKey { known, .. } if !name.contains('.') => {
             let page = PAGE_KEYS.iter().map(|key| key.name).collect::<Vec<_>>().join(", ");
             ScenarioError::UnknownKey { key: clipped(name), known: format!("preset, {known}, {page}") }
