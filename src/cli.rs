@@ -5,12 +5,15 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
 
+mod analyze;
 mod draw;
 mod figure;
 mod interrupt;
+mod logfile;
 mod map;
 mod model;
 mod output;
+mod report;
 mod run;
 mod study;
 mod table2;
@@ -42,6 +45,8 @@ enum Command {
     Figure(figure::FigureArgs),
     /// Simulate a scenario and report threshold crossings and the estimated contact location.
     Run(run::RunArgs),
+    /// Judge a log of a rig: the same detectors on recorded data.
+    Analyze(analyze::AnalyzeArgs),
     /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
     Table2(table2::Table2Args),
     /// Map which contacts are detectable: the largest threshold and cell error for each place and bend at contact.
@@ -123,7 +128,8 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "name a subcommand: model, run, figure, table2, map, study, presets or scenario (see --help)".into(),
+                "name a subcommand: model, run, figure, table2, map, study, analyze, presets or scenario (see --help)"
+                    .into(),
             )
             .report();
         }
@@ -134,6 +140,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Model(args) => args.execute(&mut out),
         Command::Run(args) => args.execute(&mut out),
+        Command::Analyze(args) => args.execute(&mut out),
         Command::Figure(args) => args.execute(&mut out),
         Command::Table2(args) => args.execute(&mut out),
         Command::Map(args) => args.execute(&mut out),

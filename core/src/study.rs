@@ -8,6 +8,7 @@ pub mod map;
 pub mod seed;
 pub mod shared;
 pub mod table2;
+pub mod timeline;
 pub mod truth;
 pub mod tuning;
 

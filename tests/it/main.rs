@@ -21,6 +21,8 @@ mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
 mod keys;
+#[cfg(feature = "cli")]
+mod logs;
 mod map;
 #[cfg(feature = "cli")]
 mod map_command;
