@@ -9,7 +9,10 @@ use super::draw::{self, Format as Drawing};
 use super::output::{Failure, NewFile, cell, finish_csv, write_record};
 use super::report::{Report, Tally};
 use centrode_core::detect::{Method, Settings};
-use centrode_core::record::log::{self, Commands, Log, LogError, MAX_BYTES, Mapping, Options, Rate, Setup, assemble};
+use centrode_core::record::log::frame::{Frame, Setting};
+use centrode_core::record::log::{
+    self, Commands, Format, Log, LogError, MAX_BYTES, Mapping, Options, Rate, Setup, assemble,
+};
 use centrode_core::run::{CHANNELS, Replay};
 use centrode_core::scenario::{Scenario, Threshold};
 use centrode_core::study::timeline::Timeline;
@@ -21,7 +24,7 @@ use std::path::{Path, PathBuf};
 /// Flags of `centrode analyze`.
 #[derive(Debug, Args)]
 pub struct AnalyzeArgs {
-    /// The log: CSV or a TUM trajectory (see docs/LOGS.md).
+    /// The log: CSV, a TUM or EuRoC trajectory, NDI tool tracking or MCAP (see docs/LOGS.md).
     #[arg(value_name = "LOG")]
     log: PathBuf,
     /// Take the commands from a second log with the same clock, or from the scenario's motion.
@@ -38,6 +41,21 @@ pub struct AnalyzeArgs {
     /// Drop readings of a lower quality.
     #[arg(long, value_name = "NUMBER")]
     min_quality: Option<f64>,
+    /// Read the log as csv, tum, euroc, ndi or mcap, whatever its name and content look like.
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<String>,
+    /// Which tool of an NDI file: its number, or a part of its port or name.
+    #[arg(long, value_name = "TOOL")]
+    tool: Option<String>,
+    /// Which topic of an MCAP file; may be repeated, for poses, joints and wrenches.
+    #[arg(long = "topic", value_name = "TOPIC")]
+    topics: Vec<String>,
+    /// Fit where the log's frame is, and how the marker is turned, to the readings before detection.armed_from.
+    #[arg(long)]
+    fit_frame: bool,
+    /// Where the log's frame is in {B}, m and rad.
+    #[arg(long, value_name = "X,Y,Z,AZIMUTH,ELEVATION,ROLL", allow_hyphen_values = true, conflicts_with = "fit_frame")]
+    frame: Option<String>,
     /// Hold a reading, a command or a force for at most this long, s.
     #[arg(long, value_name = "SECONDS")]
     hold: Option<f64>,
@@ -90,9 +108,16 @@ impl AnalyzeArgs {
             }
         }
         let drawing = self.figure.as_deref().map(|path| Drawing::of("--figure", path)).transpose()?;
-        let (log, commands) = self.read()?;
+        let frame = match &self.frame {
+            Some(text) => {
+                Setting::Given(Frame::parse(text).map_err(|error| Failure::Input(format!("--frame: {error}")))?)
+            }
+            None if self.fit_frame => Setting::Fitted,
+            None => Setting::Base,
+        };
+        let (log, commands) = self.read(&scenario)?;
         let about_log = blame(&self.log);
-        let setup = Setup { rate, commands, hold: self.hold, ..Setup::default() };
+        let setup = Setup { rate, commands, hold: self.hold, frame };
         let assembled = assemble(&log, &scenario, &setup).map_err(&about_log)?;
         for outlook in assembled.outlooks.iter().filter(|outlook| !outlook.works) {
             if self.detectors.iter().any(|name| name == outlook.detector.key()) {
@@ -152,10 +177,23 @@ impl AnalyzeArgs {
     }
 
     /// The log with its commands, and where they come from when that was said.
-    fn read(&self) -> Result<(Log, Option<Commands>), Failure> {
+    fn read(&self, scenario: &Scenario) -> Result<(Log, Option<Commands>), Failure> {
         let mappings = self.maps.iter().map(|text| Mapping::parse(text)).collect::<Result<Vec<_>, _>>();
         let mappings = mappings.map_err(|error| Failure::Input(format!("--map: {error}")))?;
-        let options = Options { mappings, min_quality: self.min_quality, ..Options::default() };
+        let of = |name: &String| {
+            Format::ALL.into_iter().find(|format| format.key() == name).ok_or_else(|| {
+                let known = Format::ALL.map(Format::key).join(", ");
+                Failure::Input(format!("--format: there is no format called {name:?}; known are: {known}"))
+            })
+        };
+        let options = Options {
+            format: self.format.as_ref().map(of).transpose()?,
+            mappings,
+            min_quality: self.min_quality,
+            tool: self.tool.clone(),
+            frame_rate: Some(scenario.tracker.rate),
+            topics: self.topics.clone(),
+        };
         for (flag, value) in [("--min-quality", self.min_quality), ("--hold", self.hold)] {
             if value.is_some_and(|value| !(value >= 0.0)) {
                 return Err(Failure::Input(format!("{flag}: not allowed; allowed: a number from 0")));
@@ -167,7 +205,7 @@ impl AnalyzeArgs {
             return Ok((log, Some(Commands::Motion)));
         }
         // Mappings are for the log; what it does not hold they may name in the file of commands.
-        let other = read(path, &Options { mappings: Vec::new(), ..options })?;
+        let other = read(path, &Options { mappings: Vec::new(), format: None, ..options })?;
         log.take_commands(other).map_err(blame(path))?;
         Ok((log, Some(Commands::Log)))
     }

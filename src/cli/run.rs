@@ -25,7 +25,7 @@ pub struct RunArgs {
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Write what a rig would have recorded, without the truth, to a log; the extension says how.
-    #[arg(long, value_name = "FILE.{csv,tum}")]
+    #[arg(long, value_name = "FILE.{csv,tum,mcap}")]
     log: Option<PathBuf>,
 }
 

@@ -18,6 +18,10 @@ impl Scratch {
         self.0.to_str().expect("a path in UTF-8")
     }
 
+    pub fn bytes(&self) -> Vec<u8> {
+        std::fs::read(&self.0).expect("a file")
+    }
+
     pub fn text(&self) -> String {
         std::fs::read_to_string(&self.0).expect("a text")
     }

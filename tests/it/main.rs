@@ -22,6 +22,8 @@ mod golden;
 mod gpu;
 mod keys;
 #[cfg(feature = "cli")]
+mod log_formats;
+#[cfg(feature = "cli")]
 mod logs;
 mod map;
 #[cfg(feature = "cli")]

@@ -10,6 +10,7 @@ pub mod error;
 pub mod frame;
 pub mod gather;
 pub mod header;
+pub mod mcap;
 pub mod report;
 pub mod rotation;
 pub mod text;
@@ -22,6 +23,7 @@ pub use gather::Track;
 pub use header::{Column, Mapping, Origin, Role};
 pub use report::{Count, Happening, Place, Report};
 
+use mcap::{McapReader, Topic};
 use serde::Serialize;
 use text::TextReader;
 
@@ -36,11 +38,17 @@ pub enum Format {
     Csv,
     /// `timestamp tx ty tz qx qy qz qw`, as the TUM benchmark has it.
     Tum,
+    /// `#timestamp [ns], p_RS_R_x [m], …`, as the EuRoC data sets have it: the quaternion's scalar first.
+    Euroc,
+    /// NDI tool tracking: one group of columns for each tool.
+    Ndi,
+    /// ROS messages in an MCAP container.
+    Mcap,
 }
 
 impl Format {
     /// All of them.
-    pub const ALL: [Self; 2] = [Self::Csv, Self::Tum];
+    pub const ALL: [Self; 5] = [Self::Csv, Self::Tum, Self::Euroc, Self::Ndi, Self::Mcap];
 
     /// Its key on the command line.
     #[must_use]
@@ -48,6 +56,9 @@ impl Format {
         match self {
             Self::Csv => "csv",
             Self::Tum => "tum",
+            Self::Euroc => "euroc",
+            Self::Ndi => "ndi",
+            Self::Mcap => "mcap",
         }
     }
 
@@ -57,6 +68,9 @@ impl Format {
         match self {
             Self::Csv => "CSV",
             Self::Tum => "TUM trajectory",
+            Self::Euroc => "EuRoC trajectory",
+            Self::Ndi => "NDI tool tracking",
+            Self::Mcap => "MCAP",
         }
     }
 
@@ -64,7 +78,15 @@ impl Format {
     #[must_use]
     pub fn guess(name: &str, bytes: &[u8]) -> Self {
         let extension = name.rsplit_once('.').map_or(String::new(), |(_, extension)| extension.to_lowercase());
-        if extension == "tum" || text::looks_like_tum(bytes) { Self::Tum } else { Self::Csv }
+        match extension.as_str() {
+            "mcap" => Self::Mcap,
+            _ if bytes.starts_with(mcap::container::MAGIC) => Self::Mcap,
+            "tum" => Self::Tum,
+            _ if text::head::looks_like_euroc(bytes) => Self::Euroc,
+            _ if text::ndi::looks_like(bytes) => Self::Ndi,
+            _ if text::head::looks_like_tum(bytes) => Self::Tum,
+            _ => Self::Csv,
+        }
     }
 }
 
@@ -77,6 +99,12 @@ pub struct Options {
     pub mappings: Vec<Mapping>,
     /// Readings of a lower quality are dropped; none drops those of 0 or less.
     pub min_quality: Option<f64>,
+    /// Which tool of an NDI file: its number from 1, or a part of its name.
+    pub tool: Option<String>,
+    /// Rate of the tracker, Hz, where a file numbers its frames and has no times.
+    pub frame_rate: Option<f64>,
+    /// Which topics of an MCAP file, where several could be meant.
+    pub topics: Vec<String>,
 }
 
 /// What a log holds, before it is a recording.
@@ -94,6 +122,8 @@ pub struct Log {
     pub joints: Track<3>,
     /// What the load cells read, N; NaN where the log has no number.
     pub forces: Track<3>,
+    /// What its times are counted from, s: 0, or the first row's time where a double of it would lose digits.
+    pub origin: f64,
     /// What was done with its rows.
     pub report: Report,
 }
@@ -107,6 +137,7 @@ impl Log {
             commands: Track::default(),
             joints: Track::default(),
             forces: Track::default(),
+            origin: 0.0,
             report: Report::default(),
         }
     }
@@ -137,11 +168,16 @@ impl Log {
     ///
     /// # Errors
     /// When the second one holds no commands.
-    pub fn take_commands(&mut self, other: Self) -> Result<(), LogError> {
+    pub fn take_commands(&mut self, mut other: Self) -> Result<(), LogError> {
         if !other.has_commands() {
             return Err(LogError::file("holds no command: name columns theta_l or bend, or q1, q2 and q3"));
         }
         self.report.merge(&other.report);
+        if other.origin != self.origin {
+            let later = other.origin - self.origin;
+            let tracks = [&mut other.commands.times, &mut other.joints.times, &mut other.forces.times];
+            tracks.into_iter().flatten().for_each(|time| *time += later);
+        }
         (self.commands, self.joints) = (other.commands, other.joints);
         if self.forces.is_empty() {
             self.forces = other.forces;
@@ -170,7 +206,13 @@ impl Progress {
 /// Reads a log a piece at a time, so that whoever drives it can show progress and stop.
 #[derive(Debug)]
 pub struct Reader {
-    inner: TextReader,
+    inner: Inner,
+}
+
+#[derive(Debug)]
+enum Inner {
+    Text(Box<TextReader>),
+    Mcap(McapReader),
 }
 
 impl Reader {
@@ -183,19 +225,38 @@ impl Reader {
             return Err(LogError::file("larger than 1 GiB: cut it into parts"));
         }
         let format = options.format.unwrap_or_else(|| Format::guess(name, &bytes));
-        Ok(Self { inner: TextReader::new(format, bytes, options)? })
+        let inner = match format {
+            Format::Mcap => Inner::Mcap(McapReader::new(bytes, options)?),
+            text => Inner::Text(Box::new(TextReader::new(text, bytes, options)?)),
+        };
+        Ok(Self { inner })
     }
 
     /// How it is written.
     #[must_use]
     pub fn format(&self) -> Format {
-        self.inner.log().format
+        match &self.inner {
+            Inner::Text(text) => text.log().format,
+            Inner::Mcap(_) => Format::Mcap,
+        }
     }
 
-    /// Its columns, as they were understood.
+    /// The columns of a text log, as they were understood.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
-        &self.inner.log().columns
+        match &self.inner {
+            Inner::Text(text) => &text.log().columns,
+            Inner::Mcap(_) => &[],
+        }
+    }
+
+    /// The topics of an MCAP file, as far as it is read.
+    #[must_use]
+    pub fn topics(&self) -> Vec<Topic> {
+        match &self.inner {
+            Inner::Text(_) => Vec::new(),
+            Inner::Mcap(mcap) => mcap.topics().cloned().collect(),
+        }
     }
 
     /// Reads at most `rows` more.
@@ -203,15 +264,21 @@ impl Reader {
     /// # Errors
     /// The first row that cannot be read, with line and column.
     pub fn work(&mut self, rows: usize) -> Result<Progress, LogError> {
-        self.inner.work(rows)
+        match &mut self.inner {
+            Inner::Text(text) => text.work(rows),
+            Inner::Mcap(mcap) => mcap.work(rows),
+        }
     }
 
     /// What was read.
     ///
     /// # Errors
-    /// When there was nothing of use.
+    /// When there was nothing of use, or several topics could be meant.
     pub fn finish(self) -> Result<Log, LogError> {
-        let log = self.inner.finish();
+        let log = match self.inner {
+            Inner::Text(text) => text.finish(),
+            Inner::Mcap(mcap) => mcap.finish()?,
+        };
         if log.readings.is_empty() && !log.has_commands() && log.forces.is_empty() {
             return Err(LogError::file(format!("holds no row that can be used ({} were read)", log.report.rows)));
         }

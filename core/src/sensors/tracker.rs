@@ -32,14 +32,7 @@ impl SimulatedTracker {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let scenario = plan.scenario();
-        let tip_from_marker = match scenario.tracker.mounting {
-            Mounting::Aligned => Mat3::identity(),
-            Mounting::BendingAxis => {
-                // Turned about the tangent until x is the bending axis (sin δ, cos δ, 0).
-                let (s, c) = sincos(scenario.motion.delta);
-                Mat3::new(s, -c, 0.0, c, s, 0.0, 0.0, 0.0, 1.0)
-            }
-        };
+        let tip_from_marker = tip_from_marker(scenario.tracker.mounting, scenario.motion.delta);
         Self {
             settings: scenario.tracker.clone(),
             tip_from_marker,
@@ -83,6 +76,19 @@ impl SimulatedTracker {
             }
         }
         Reading { position, angles }
+    }
+}
+
+/// How a marker is mounted on the end disk of a robot that bends in the plane `delta` (rad): R̃_gᵀ.
+#[must_use]
+pub fn tip_from_marker(mounting: Mounting, delta: f64) -> Mat3 {
+    match mounting {
+        Mounting::Aligned => Mat3::identity(),
+        Mounting::BendingAxis => {
+            // Turned about the tangent until x is the bending axis (sin δ, cos δ, 0).
+            let (s, c) = sincos(delta);
+            Mat3::new(s, -c, 0.0, c, s, 0.0, 0.0, 0.0, 1.0)
+        }
     }
 }
 

@@ -105,10 +105,13 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     }
     let plan = Plan::new(&scenario).map_err(|error| LogError::file(format!("with this log, {error}")))?;
     let source = source(log, setup.commands)?;
-    let start = clock::start(times[0], &scenario, &mut report);
+    let start = clock::start(times[0], log.origin, &scenario, &mut report);
     let ticks = Ticks::new(times, scenario.loop_rate, &mut report)?;
     let ordered = ordered(log, &plan, &mut report)?;
-    let (readings, fit) = frame::placed(log, &plan, &setup.frame, source, &ordered, start, &mut report)?;
+    let commanded = |at: f64| commanded(source, &plan, &ordered, at, start);
+    let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);
+    let (readings, fit) = frame::placed(log, &plan, &setup.frame, known, start)?;
+    report.notes.extend(fit.map(|fit| format!("the log's frame is {}", fit.told())));
     let held = |median: Option<f64>| setup.hold.unwrap_or_else(|| LEAST_HOLD.max(SPACINGS * median.unwrap_or(0.0)));
     let mut reading = Held::new(&readings, held(clock::median(&readings.times)), scenario.loop_rate);
     let mut order = Held::new(&ordered, held(clock::median(&ordered.times)), scenario.loop_rate);
@@ -144,7 +147,16 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     }
     let outlooks = outlook::outlooks(log, source);
     let recording = Recording { entries, truth: None };
-    Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start, fit, outlooks })
+    Ok(Assembled {
+        plan,
+        recording,
+        report,
+        rate: setup.rate,
+        commands: source,
+        start: log.origin + start,
+        fit,
+        outlooks,
+    })
 }
 
 /// Where the commands come from.
@@ -191,6 +203,18 @@ fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogE
         }
     }
     Ok(Track { times: track.0.clone(), lines: track.1.clone(), values })
+}
+
+/// The configuration commanded at a time (s) on the log's clock, when that is known.
+fn commanded(source: Commands, plan: &Plan, ordered: &Track<2>, at: f64, start: f64) -> Option<Configuration> {
+    let motion = &plan.scenario().motion;
+    if source == Commands::Motion {
+        let (theta_l, _) = command(motion, at - start);
+        return Some(Configuration::from_theta_l(theta_l, motion.delta));
+    }
+    let last = ordered.times.partition_point(|time| *time <= at).checked_sub(1)?;
+    let [bend, delta] = ordered.values.get(last)?;
+    Some(Configuration::new(*bend, *delta))
 }
 
 /// The bend (rad) in the plane of a configuration at which {G}'s tangent points as the marker's z does, both of which the

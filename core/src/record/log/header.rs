@@ -107,6 +107,12 @@ impl Column {
         Self { place, header: header.into(), role: Some(role), unit, unit_given: true, origin: Origin::Named }
     }
 
+    /// A column that is not used.
+    #[must_use]
+    pub fn unused(place: usize, header: &str) -> Self {
+        Self { place, header: header.into(), role: None, unit: "", unit_given: false, origin: Origin::Guessed }
+    }
+
     /// The unit of its numbers.
     #[must_use]
     pub fn scale(&self) -> Unit {
@@ -224,7 +230,7 @@ pub fn columns(headers: &[String], line: u64, mappings: &[Mapping]) -> Result<Ve
                 Some(unit) => Some(unit),
                 // A column that only looks like one, in a unit that it cannot have, is another.
                 None if origin == Origin::Guessed => {
-                    columns.push(unused(place, header));
+                    columns.push(Column::unused(place, header));
                     continue;
                 }
                 None => {
@@ -247,10 +253,6 @@ pub fn columns(headers: &[String], line: u64, mappings: &[Mapping]) -> Result<Ve
     }
     settle(&mut columns, line)?;
     Ok(columns)
-}
-
-fn unused(place: usize, header: &str) -> Column {
-    Column { place, header: header.into(), role: None, unit: "", unit_given: false, origin: Origin::Guessed }
 }
 
 /// Of columns that could be the same one is taken: the mapped one, else the one with the exact name.

@@ -1,16 +1,21 @@
 //! Logs as text: rows of numbers below a header, or in an order that the format fixes.
 
+pub mod head;
 pub mod lines;
+pub mod ndi;
+pub mod quality;
 pub mod row;
 
 use super::error::{LogError, quoted};
 use super::gather::Clock;
-use super::header::{Column, Role, columns};
 use super::report::{Happening, Place};
 use super::rotation::Orientation;
 use super::{Format, Log, Options, Progress};
 use crate::model::configuration::bend_from_theta_l;
+use head::Head;
 use lines::{Cells, Delimiter, Line, Lines, Numbers};
+use ndi::Groups;
+use quality::is_bad;
 use row::{Ordered, Row, Slot, Turn};
 
 /// Reads a text log row by row.
@@ -21,40 +26,13 @@ pub struct TextReader {
     numbers: Numbers,
     row: Row,
     width: usize,
-    /// Whether rows may be shorter or longer than the header.
-    ragged: bool,
+    /// Where a tool's columns are, in a file with several.
+    groups: Option<Groups>,
+    /// What was subtracted from all times so far, in the unit of the first column of time.
+    origin: Option<i64>,
     clock: Clock,
     min_quality: Option<f64>,
     log: Log,
-}
-
-/// The columns of a TUM trajectory.
-const TUM: [Role; 8] = [Role::Time, Role::X, Role::Y, Role::Z, Role::Qx, Role::Qy, Role::Qz, Role::Qw];
-
-/// Whether the first row of a file is eight numbers with spaces between them.
-#[must_use]
-pub fn looks_like_tum(bytes: &[u8]) -> bool {
-    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let first = start
-        .split(|byte| *byte == b'\n')
-        .map(<[u8]>::trim_ascii)
-        .find(|line| !line.is_empty() && !line.starts_with(b"#"));
-    first.is_some_and(|line| {
-        let mut cells = line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty());
-        cells.by_ref().take(TUM.len()).filter(|cell| is_number(cell)).count() == TUM.len() && cells.next().is_none()
-    })
-}
-
-fn is_number(cell: &[u8]) -> bool {
-    Numbers::default().read(cell, 0).is_ok_and(|value| !value.is_nan())
-}
-
-/// What stands above the rows.
-struct Head {
-    delimiter: Delimiter,
-    columns: Vec<Column>,
-    /// Line of the header, from 1.
-    line: u64,
 }
 
 impl TextReader {
@@ -64,25 +42,26 @@ impl TextReader {
     /// When it does not say enough.
     pub fn new(format: Format, bytes: Vec<u8>, options: &Options) -> Result<Self, LogError> {
         let mut lines = Lines::new(bytes)?;
-        let mut head = match format {
-            Format::Csv => csv_head(&mut lines, options)?,
-            Format::Tum => tum_head(),
-        };
+        let Head { delimiter, mut columns, line, groups } = head::read(format, &mut lines, options)?;
         let mut notes = Vec::new();
-        let row = Row::new(&mut head.columns, head.line, &mut notes)?;
-        if let Delimiter::Byte(b';' | b'\t') = head.delimiter {
-            let name = if head.delimiter == Delimiter::Byte(b';') { "semicolons" } else { "tabs" };
+        let mut row = Row::new(&mut columns, line, &mut notes)?;
+        if let Some(groups) = &groups {
+            groups.time(&mut row, options.frame_rate, &mut notes)?;
+        }
+        if let Delimiter::Byte(b';' | b'\t') = delimiter {
+            let name = if delimiter == Delimiter::Byte(b';') { "semicolons" } else { "tabs" };
             notes.push(format!("cells are divided by {name}"));
         }
-        let mut log = Log::new(format, head.columns);
+        let mut log = Log::new(format, columns);
         log.report.notes = notes;
         Ok(Self {
             lines,
-            cells: Cells::new(head.delimiter),
+            cells: Cells::new(delimiter),
             numbers: Numbers::default(),
             row,
             width: log.columns.len(),
-            ragged: false,
+            groups,
+            origin: None,
             clock: Clock::default(),
             min_quality: options.min_quality,
             log,
@@ -117,6 +96,9 @@ impl TextReader {
         if self.numbers.has_commas() {
             self.log.report.notes.push("numbers have decimal commas".into());
         }
+        if let Some(origin) = self.origin.filter(|origin| *origin != 0) {
+            self.log.origin = self.row.time.unit.si(origin as f64);
+        }
         self.log
     }
 
@@ -129,20 +111,24 @@ impl TextReader {
             return Ok(());
         }
         self.cells.divide(self.lines.text(line), number)?;
-        let cells = self.cells.len();
-        let extra = (self.width..cells).any(|place| !self.cells.get(place).is_empty());
-        if !self.ragged && (cells < self.width || extra) {
-            let what = format!("has {cells} cells, and the header has {}", self.width);
-            return Err(LogError::line(number, what));
+        if let Some(groups) = &self.groups {
+            groups.select(&mut self.cells, number)?;
+        } else {
+            let cells = self.cells.len();
+            let extra = (self.width..cells).any(|place| !self.cells.get(place).is_empty());
+            if cells < self.width || extra {
+                let what = format!("has {cells} cells, and the header has {}", self.width);
+                return Err(LogError::line(number, what));
+            }
         }
         self.values(number)
     }
 
     /// Reads every cell before the clock decides, so that none goes unread.
     fn values(&mut self, line: u64) -> Result<(), LogError> {
-        let Self { row, cells, numbers, clock, log, min_quality, .. } = self;
+        let Self { row, cells, numbers, clock, log, min_quality, origin, .. } = self;
+        let time = time(cells, numbers, row, origin, line)?;
         let mut one = |slot: &Slot| value(cells, numbers, slot, line);
-        let time = one(&row.time)?;
         let position = row.position.as_ref().map(|slots| all(slots, &mut one)).transpose()?;
         let orientation = match &row.turn {
             None => Orientation::None,
@@ -200,6 +186,28 @@ fn all<const N: usize>(
     Ok(values)
 }
 
+/// The time of a row, s. Whole numbers too large for a double lose no digits: they are counted from the first.
+fn time(cells: &Cells, numbers: &mut Numbers, row: &Row, origin: &mut Option<i64>, line: u64) -> Result<f64, LogError> {
+    /// Beyond this, a double has no room for every whole number.
+    const LONG: i64 = 1 << 53;
+    /// Whole seconds with nanoseconds beside them: about as many seconds lose the nanoseconds.
+    const LONG_SECONDS: i64 = 1 << 20;
+    let slot = &row.time;
+    let whole = std::str::from_utf8(cells.get(slot.place)).ok().and_then(|text| text.parse::<i64>().ok());
+    let least = if row.nanoseconds.is_some() { LONG_SECONDS } else { LONG };
+    let Some(whole) = whole.filter(|whole| origin.is_some_and(|origin| origin != 0) || whole.abs() > least) else {
+        let whole = origin.get_or_insert(0);
+        let time = value(cells, numbers, slot, line)? - slot.unit.si(*whole as f64);
+        let more = row.nanoseconds.as_ref().map_or(Ok(0.0), |slot| value(cells, numbers, slot, line))?;
+        return Ok(time + more);
+    };
+    // The limit on numbers is checked as for any other cell.
+    value(cells, numbers, slot, line)?;
+    let origin = *origin.get_or_insert(whole);
+    let more = row.nanoseconds.as_ref().map_or(Ok(0.0), |slot| value(cells, numbers, slot, line))?;
+    Ok(slot.unit.si(whole.saturating_sub(origin) as f64) + more)
+}
+
 /// The number of a slot in SI; NaN where there is none.
 #[inline]
 fn value(cells: &Cells, numbers: &mut Numbers, slot: &Slot, line: u64) -> Result<f64, LogError> {
@@ -211,76 +219,4 @@ fn value(cells: &Cells, numbers: &mut Numbers, slot: &Slot, line: u64) -> Result
         return Err(LogError::cell(line, slot.place, &slot.header, what, allowed));
     }
     Ok(value)
-}
-
-/// Words of trackers, small.
-const GOOD: [&str; 9] = ["ok", "good", "valid", "tracked", "visible", "enabled", "true", "yes", "online"];
-const BAD: [&str; 12] = [
-    "bad",
-    "missing",
-    "lost",
-    "invalid",
-    "false",
-    "no",
-    "disabled",
-    "offline",
-    "outofvolume",
-    "partiallyoutofvolume",
-    "toofewmarkers",
-    "occluded",
-];
-
-/// Whether a reading of this quality is dropped.
-fn is_bad(cell: &[u8], numbers: &mut Numbers, least: Option<f64>, line: u64) -> Result<bool, String> {
-    if let Ok(value) = numbers.read(cell, line) {
-        return Ok(!(value > 0.0 && least.is_none_or(|least| value >= least)));
-    }
-    let word: String = String::from_utf8_lossy(cell).chars().filter(|c| c.is_alphanumeric()).collect();
-    let word = word.to_lowercase();
-    match (GOOD.contains(&word.as_str()), BAD.contains(&word.as_str())) {
-        (true, _) => Ok(false),
-        (_, true) => Ok(true),
-        _ => Err(format!("{} says nothing about the quality", quoted(cell))),
-    }
-}
-
-fn tum_head() -> Head {
-    let units = |role: Role| role.dimension().si().name;
-    let columns = TUM.iter().enumerate().map(|(place, role)| Column::fixed(place, role.key(), *role, units(*role)));
-    Head { delimiter: Delimiter::Spaces, columns: columns.collect(), line: 1 }
-}
-
-fn csv_head(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
-    let first = lines.next_row().ok_or_else(|| LogError::file("holds comments alone"))?;
-    let text = lines.text(&first);
-    let delimiter = Delimiter::of(text);
-    let headers = headers(text, delimiter, first.number)?;
-    if headers.iter().all(|cell| is_number(cell.as_bytes())) {
-        // Rows without a header: a person says which column is what by its number.
-        let named = |place: usize| if options.mappings.is_empty() { None } else { Some(format!("#{}", place + 1)) };
-        let names: Option<Vec<String>> = (0..headers.len()).map(named).collect();
-        let what = "holds numbers, not the names of columns: add a header as in \"time [s],x [mm],…\", or say which column is \
-                    what with --map time=#1 and so on";
-        let names = names.ok_or_else(|| LogError::line(first.number, what))?;
-        let columns = columns(&names, first.number, &options.mappings)?;
-        let line = first.number;
-        lines.back(&first);
-        return Ok(Head { delimiter, columns, line });
-    }
-    Ok(Head { delimiter, columns: columns(&headers, first.number, &options.mappings)?, line: first.number })
-}
-
-/// The cells of a header.
-fn headers(text: &[u8], delimiter: Delimiter, line: u64) -> Result<Vec<String>, LogError> {
-    let mut cells = Cells::new(delimiter);
-    cells.divide(text, line)?;
-    (0..cells.len())
-        .map(|place| {
-            let cell = cells.get(place);
-            let utf8 = std::str::from_utf8(cell).map(Into::into);
-            utf8.map_err(|_| {
-                LogError::cell(line, place, "", format!("{} is not UTF-8: save the file as UTF-8", quoted(cell)), "")
-            })
-        })
-        .collect()
 }

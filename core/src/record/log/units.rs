@@ -27,6 +27,12 @@ pub struct Unit {
 }
 
 impl Unit {
+    /// One `under`th of the SI unit.
+    #[must_use]
+    pub const fn share(name: &'static str, under: f64) -> Self {
+        Self { name, over: 1.0, under }
+    }
+
     /// A number of this unit in SI.
     #[must_use]
     #[inline]

@@ -34,7 +34,11 @@ pub fn rate(times: &[f64]) -> Result<f64, LogError> {
 }
 
 /// What is subtracted from the log's times, s: its first time where its clock cannot be the scenario's, else 0.
-pub fn start(first: f64, scenario: &Scenario, report: &mut Report) -> f64 {
+pub fn start(first: f64, origin: f64, scenario: &Scenario, report: &mut Report) -> f64 {
+    if origin != 0.0 {
+        report.notes.push(format!("times are counted from the first row, at {} s", number(origin + first)));
+        return first;
+    }
     if (0.0..=scenario.motion.end).contains(&first) {
         return 0.0;
     }

@@ -111,6 +111,8 @@ pub struct Cells {
     text: Vec<u8>,
     ends: Vec<usize>,
     ranges: Vec<Range<usize>>,
+    /// Cells in front that do not count.
+    skipped: usize,
 }
 
 impl Cells {
@@ -119,7 +121,7 @@ impl Cells {
     pub fn new(delimiter: Delimiter) -> Self {
         let byte = if let Delimiter::Byte(byte) = delimiter { byte } else { b' ' };
         let core = ReaderBuilder::new().delimiter(byte).terminator(Terminator::Any(b'\n')).build();
-        Self { delimiter, core, text: Vec::new(), ends: Vec::new(), ranges: Vec::new() }
+        Self { delimiter, core, text: Vec::new(), ends: Vec::new(), ranges: Vec::new(), skipped: 0 }
     }
 
     /// Divides a line.
@@ -128,6 +130,7 @@ impl Cells {
     /// When a quote is not closed.
     pub fn divide(&mut self, line: &[u8], number: u64) -> Result<(), LogError> {
         self.ranges.clear();
+        self.skipped = 0;
         let Delimiter::Byte(delimiter) = self.delimiter else {
             self.text.clear();
             for cell in line.split(u8::is_ascii_whitespace).filter(|cell| !cell.is_empty()) {
@@ -162,6 +165,11 @@ impl Cells {
         Ok(())
     }
 
+    /// Counts places from this one on.
+    pub fn skip(&mut self, cells: usize) {
+        self.skipped = cells;
+    }
+
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -172,7 +180,7 @@ impl Cells {
     #[must_use]
     #[inline]
     pub fn get(&self, place: usize) -> &[u8] {
-        self.ranges.get(place).map_or(&[], |range| &self.text[range.clone()])
+        self.ranges.get(self.skipped + place).map_or(&[], |range| &self.text[range.clone()])
     }
 }
 

@@ -44,6 +44,8 @@ pub enum Ordered {
 pub struct Row {
     /// Time.
     pub time: Slot,
+    /// Nanoseconds beside whole seconds.
+    pub nanoseconds: Option<Slot>,
     /// Position.
     pub position: Option<[Slot; 3]>,
     /// Orientation.
@@ -112,7 +114,7 @@ impl Row {
         let time = slot(columns, Role::Time).ok_or_else(|| {
             LogError::line(line, "no column is the time: name it \"time [s]\", or use --map time=column")
         })?;
-        Ok(Self { time, position, turn, ordered, forces, quality: slot(columns, Role::Quality) })
+        Ok(Self { time, nanoseconds: None, position, turn, ordered, forces, quality: slot(columns, Role::Quality) })
     }
 }
 
