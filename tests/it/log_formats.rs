@@ -157,9 +157,11 @@ fn a_frame_and_a_marker_are_fitted_and_what_remains_is_told() {
     let report = json(&["analyze", log.path(), "--preset", "bench", "--fit-frame", "--json"]);
     let fit = &report["log"]["frame"];
     for (k, shift) in SHIFT.iter().enumerate() {
-        assert!((fit["frame"]["position"][k].as_f64().expect("m") - shift).abs() < 2e-4, "{fit}");
+        assert!((fit["frame"]["position"][k].as_f64().expect("m") - shift).abs() < 5e-3, "{fit}");
         assert!((fit["frame"]["angles"][k].as_f64().expect("rad") - ANGLES[k]).abs() < 2e-3, "{fit}");
     }
+    // Readings err by 0.05 mm: of a frame 1.5 m away the place by the robot is known better than its origin.
+    assert!(fit["position_rms"].as_f64().expect("m") < 1e-4 && fit["orientation_rms"].as_f64().expect("rad") < 1e-3);
     let turned = fit["marker"].as_array().expect("a marker");
     let turned: Vec<f64> = turned.iter().map(|angle| angle.as_f64().expect("rad")).collect();
     let rest = from_euler(&[turned[0], turned[1], turned[2]]) - marker;

@@ -10,6 +10,8 @@
 mod cli;
 #[cfg(feature = "cli")]
 mod documented;
+#[cfg(feature = "cli")]
+mod example_logs;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
@@ -25,6 +27,8 @@ mod keys;
 mod log_formats;
 #[cfg(feature = "cli")]
 mod logs;
+#[cfg(feature = "cli")]
+mod mangled;
 mod map;
 #[cfg(feature = "cli")]
 mod map_command;

@@ -155,7 +155,13 @@ fn pairs(log: &Log, plan: &Plan, commanded: &dyn Fn(f64) -> Option<Configuration
     let oriented = log.has_orientation();
     let until = scenario.detection.armed_from + start;
     let readings = log.readings.times.iter().zip(&log.readings.values).take_while(|(time, _)| **time < until);
+    let mut before = [f64::NAN; 3];
     let pair = |(time, value): (&f64, &[f64; 6])| {
+        // What the loop held is older than the command beside it.
+        let position = [value[0], value[1], value[2]];
+        if std::mem::replace(&mut before, position) == position {
+            return None;
+        }
         let [x, y, z, angles @ ..] = value;
         let tip = segment.arc(commanded(*time)?).pose(segment.length);
         Some(Pair {
