@@ -8,6 +8,7 @@ use super::ScenarioArgs;
 use super::draw::{self, Format as Drawing};
 use super::output::{Failure, NewFile, cell, finish_csv, write_record};
 use super::report::{Report, Tally};
+use centrode_core::chart::notation::plain;
 use centrode_core::detect::{Method, Settings};
 use centrode_core::record::log::frame::{Frame, Setting};
 use centrode_core::record::log::{
@@ -156,7 +157,7 @@ impl AnalyzeArgs {
             finish_csv(csv)?;
         }
         if let (Some(mut file), Some(timeline), Some(drawing)) = (figure, timeline, drawing) {
-            let title = self.log.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+            let title = self.log.file_name().map_or(String::new(), |name| plain(&name.to_string_lossy()));
             draw::write(&mut file, &timeline.finish(title, replay.events()), drawing)?;
             file.finish()?;
         }
@@ -195,8 +196,8 @@ impl AnalyzeArgs {
             topics: self.topics.clone(),
         };
         for (flag, value) in [("--min-quality", self.min_quality), ("--hold", self.hold)] {
-            if value.is_some_and(|value| !(value >= 0.0)) {
-                return Err(Failure::Input(format!("{flag}: not allowed; allowed: a number from 0")));
+            if value.is_some_and(|value| !(0.0..=f64::MAX).contains(&value)) {
+                return Err(Failure::Input(format!("{flag}: not allowed; allowed: a number from 0 up")));
             }
         }
         let mut log = read(&self.log, &options)?;

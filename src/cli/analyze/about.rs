@@ -48,7 +48,7 @@ impl About {
         writeln!(out, "log         {}, {} rows", self.format.name(), self.rows)?;
         let used = |column: &Column| {
             let role = column.role?;
-            let unit = if column.unit_given || column.unit.is_empty() { "" } else { " (no unit given)" };
+            let unit = if column.unit_given || column.unit == "1" { "" } else { " (no unit given)" };
             let (key, name) = (role.key(), format!("{} [{}]", role.key(), column.unit));
             let said = column.header == name || column.header == key;
             Some(if said { name } else { format!("{:?} as {name}{unit}", column.header) })

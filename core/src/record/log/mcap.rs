@@ -244,7 +244,8 @@ impl McapReader {
             log.report.add(Happening::Cut, Place::line(messages), None);
         }
         let mut columns = Vec::new();
-        let roles: [(&str, fn(Kind) -> bool); 3] = [
+        type IsOf = fn(Kind) -> bool;
+        let roles: [(&str, IsOf); 3] = [
             ("where the marker is", Kind::is_pose),
             ("the joints", |kind| kind == Kind::Joints),
             ("the load cells", |kind| kind == Kind::Wrench),

@@ -114,7 +114,7 @@ impl TextReader {
         if let Some(groups) = &self.groups {
             groups.select(&mut self.cells, number)?;
         } else {
-            let cells = self.cells.len();
+            let cells = self.cells.count();
             let extra = (self.width..cells).any(|place| !self.cells.get(place).is_empty());
             if cells < self.width || extra {
                 let what = format!("has {cells} cells, and the header has {}", self.width);

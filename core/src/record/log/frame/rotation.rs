@@ -48,8 +48,9 @@ fn turn(n: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], p: usize, q: usize) 
     for row in n.iter_mut().chain(vectors) {
         (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
     }
-    for k in 0..4 {
-        (n[p][k], n[q][k]) = (c * n[p][k] - s * n[q][k], s * n[p][k] + c * n[q][k]);
+    let (left, right) = (n[p], n[q]);
+    for (k, (a, b)) in left.into_iter().zip(right).enumerate() {
+        (n[p][k], n[q][k]) = (c * a - s * b, s * a + c * b);
     }
 }
 

@@ -78,7 +78,7 @@ fn euroc(lines: &mut Lines) -> Result<Head, LogError> {
     let first = lines.next_row().ok_or_else(|| LogError::file("holds a header alone"))?;
     let mut cells = Cells::new(Delimiter::Byte(b','));
     cells.divide(lines.text(&first), first.number)?;
-    let width = cells.len();
+    let width = cells.count();
     lines.back(&first);
     if width < EUROC.len() {
         return Err(LogError::line(first.number, format!("has {width} cells, and a EuRoC trajectory has at least 8")));
@@ -107,11 +107,34 @@ fn csv(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
     Ok(Head { delimiter, columns, line: first.number, groups: None })
 }
 
+/// The cells of the first lines of a text log that are neither blank nor comments, the header among them: for a person who says
+/// what the columns are.
+///
+/// # Errors
+/// When the file is empty or no text.
+pub fn preview(bytes: &[u8], rows: usize) -> Result<Vec<Vec<String>>, LogError> {
+    /// Lines longer than this are shown in part.
+    const LONGEST: usize = 1 << 16;
+    let most = bytes.len().min(LONGEST * (rows + 1));
+    let mut lines = Lines::new(bytes[..most].to_vec())?;
+    let mut cells: Option<Cells> = None;
+    let mut shown = Vec::new();
+    while let Some(line) = lines.next_row().filter(|_| shown.len() < rows) {
+        let text = lines.text(&line);
+        let cells = cells.get_or_insert_with(|| {
+            Cells::new(if looks_like_tum(text) { Delimiter::Spaces } else { Delimiter::of(text) })
+        });
+        cells.divide(text, line.number)?;
+        shown.push((0..cells.count()).map(|place| String::from_utf8_lossy(cells.get(place)).into_owned()).collect());
+    }
+    Ok(shown)
+}
+
 /// The cells of a header.
 pub fn headers(text: &[u8], delimiter: Delimiter, line: u64) -> Result<Vec<String>, LogError> {
     let mut cells = Cells::new(delimiter);
     cells.divide(text, line)?;
-    (0..cells.len())
+    (0..cells.count())
         .map(|place| {
             let cell = cells.get(place);
             let utf8 = std::str::from_utf8(cell).map(Into::into);
@@ -120,4 +143,33 @@ pub fn headers(text: &[u8], delimiter: Delimiter, line: u64) -> Result<Vec<Strin
             })
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_rows_are_shown_as_cells() {
+        let shown = |text: &str| preview(text.as_bytes(), 2).expect("text");
+        assert_eq!(shown("# rig\nt;x\n\n1,5;2\n3;4\n"), [["t", "x"], ["1,5", "2"]]);
+        assert_eq!(shown("0 1 2 3 0 0 0 1\n")[0].len(), 8);
+        assert!(preview(b" ", 2).is_err());
+    }
+
+    #[test]
+    fn formats_are_told_by_name_and_content() {
+        for (name, content, format) in [
+            ("a.csv", "time,x\n", Format::Csv),
+            ("a.txt", "# a\n0 1 2 3 0 0 0 1\n", Format::Tum),
+            ("a.tum", "", Format::Tum),
+            ("data.csv", "#timestamp [ns], p_x\n", Format::Euroc),
+            ("a.csv", "#Tools,ToolInfo,Frame#,Q0,Qx,Tx\n", Format::Ndi),
+            ("a.csv", "Tools,Port 1,Frame,Q0,Qx,Tx\n", Format::Ndi),
+            ("a", "\u{89}MCAP", Format::Csv),
+            ("a.mcap", "", Format::Mcap),
+        ] {
+            assert_eq!(Format::guess(name, content.as_bytes()), format, "{name} {content}");
+        }
+    }
 }

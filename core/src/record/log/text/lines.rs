@@ -61,7 +61,7 @@ impl Lines {
     }
 
     /// The next line, without its end.
-    pub fn next(&mut self) -> Option<Line> {
+    pub fn next_line(&mut self) -> Option<Line> {
         let rest = self.bytes.get(self.at..).filter(|rest| !rest.is_empty())?;
         let found = rest.iter().position(|byte| *byte == self.end);
         let length = found.unwrap_or(rest.len());
@@ -77,7 +77,7 @@ impl Lines {
     /// The next line that is neither blank nor a comment.
     pub fn next_row(&mut self) -> Option<Line> {
         loop {
-            let line = self.next()?;
+            let line = self.next_line()?;
             let text = self.text(&line).trim_ascii_start();
             if !text.is_empty() && !text.starts_with(b"#") {
                 return Some(line);
@@ -172,7 +172,7 @@ impl Cells {
 
     /// How many there are.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.ranges.len()
     }
 
@@ -264,7 +264,7 @@ mod tests {
     fn cells(delimiter: Delimiter, line: &str) -> Vec<String> {
         let mut cells = Cells::new(delimiter);
         cells.divide(line.as_bytes(), 1).expect("divided");
-        (0..cells.len()).map(|place| String::from_utf8_lossy(cells.get(place)).into_owned()).collect()
+        (0..cells.count()).map(|place| String::from_utf8_lossy(cells.get(place)).into_owned()).collect()
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 pub(super) fn head(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
     // The header may begin with a #.
     let line = loop {
-        let line = lines.next().ok_or_else(|| LogError::file("holds no header"))?;
+        let line = lines.next_line().ok_or_else(|| LogError::file("holds no header"))?;
         if !lines.text(&line).trim_ascii().is_empty() {
             break line;
         }
@@ -120,7 +120,7 @@ impl Groups {
     fn choose(&self, cells: &mut Cells, wanted: Option<&str>, line: u64) -> Result<usize, LogError> {
         let mut names = Vec::new();
         let mut at = self.start;
-        while at + self.width <= cells.len() {
+        while at + self.width <= cells.count() {
             let told: Vec<String> = (at..at + 3.min(self.width))
                 .map(|place| String::from_utf8_lossy(cells.get(place)).into_owned())
                 .filter(|name| !name.is_empty())
@@ -162,7 +162,7 @@ impl Groups {
         let cell = cells.get(place);
         let count = match std::str::from_utf8(cell).map(str::parse::<usize>) {
             _ if cell.is_empty() => 0,
-            Ok(Ok(count)) if count <= cells.len() => count,
+            Ok(Ok(count)) if count <= cells.count() => count,
             _ => {
                 let name = self.headers.get(place).map_or("Markers", String::as_str);
                 return Err(LogError::cell(
@@ -183,8 +183,8 @@ impl Groups {
         for _ in 0..self.tool {
             at = self.after(cells, at, line)?;
         }
-        if at + self.width > cells.len() {
-            let what = format!("has {} cells, too few for tool {}", cells.len(), self.tool + 1);
+        if at + self.width > cells.count() {
+            let what = format!("has {} cells, too few for tool {}", cells.count(), self.tool + 1);
             return Err(LogError::line(line, what));
         }
         cells.skip(at);
