@@ -36,7 +36,7 @@ pub struct AnalyzeArgs {
     /// Judge with these detectors alone: fcd, jfd.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     detectors: Vec<String>,
-    /// Say what a column is, as in x="Tx (mm)", "x [mm]=Tx" or time=#1; may be repeated.
+    /// Say what a column is, as in x="Tx (mm)" or time=#1, with a unit of its own before the =; may be repeated.
     #[arg(long = "map", value_name = "NAME=COLUMN")]
     maps: Vec<String>,
     /// Drop readings of a lower quality.

@@ -133,7 +133,7 @@ fn raise(peak: &mut Option<Peak>, time: f64, value: f64) {
 const LISTED: usize = 12;
 
 /// A run with more crossings than this gives no JSON: 40 MB of them.
-const MAX_CROSSINGS: usize = 1_000_000;
+pub const MAX_CROSSINGS: usize = 1_000_000;
 
 /// The first crossings, and how many more there are.
 #[derive(Debug)]

@@ -1,7 +1,7 @@
 //! `centrode run`: simulate one scenario, sample by sample.
 //!
 //! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
-//! at most [`MAX_CROSSINGS`] of them.
+//! at most [`MAX_CROSSINGS`](super::report::MAX_CROSSINGS) of them.
 
 use super::ScenarioArgs;
 use super::logfile::LogFile;
