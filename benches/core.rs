@@ -94,7 +94,7 @@ fn tuning(c: &mut Criterion) {
     group.sample_size(10);
     for name in ["paper", "bench"] {
         let scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
-        let spec = Spec { scenario, repeats: 500, late: 1.0, cells: vec![Vec::new()], xi2: None, xi1: None };
+        let spec = Spec::of(scenario, 500);
         let study = Study::new(spec).expect("a study");
         group.bench_function(format!("1000 runs of {name} on all cores"), |b| {
             b.iter(|| {

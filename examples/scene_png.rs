@@ -20,6 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(&folder)?;
     let shots: Vec<(&str, f64)> = match &args[..] {
         [_, preset, time, ..] => vec![(preset, time.parse()?)],
+        [_, preset] => return Err(format!("{preset}: at which time? Give it in s after the preset").into()),
         _ => ["bench", "disk-3", "free"].into_iter().flat_map(|name| [5.5, 6.3, 7.5].map(|t| (name, t))).collect(),
     };
     for (name, time) in shots {

@@ -23,6 +23,7 @@ use std::collections::BTreeMap;
 
 use egui::{Rect, Ui, vec2};
 
+use centrode_core::detect::Method;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::keys::find;
@@ -116,6 +117,12 @@ impl App {
         &self.notes
     }
 
+    /// The study behind the tuning view.
+    #[must_use]
+    pub fn tuner(&self) -> &Tuner {
+        &self.tuner
+    }
+
     /// Whether work for what is on the stage is left to do.
     #[must_use]
     pub fn is_working(&self) -> bool {
@@ -133,7 +140,7 @@ impl App {
             "location": run.detection().map(|detection| detection.location),
             "playing": self.state.playing,
             "summary": story::sentence(run),
-            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.method)).flatten(),
+            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.rule)).flatten(),
         })
         .to_string()
     }
@@ -169,7 +176,9 @@ impl App {
             ui.ctx().request_repaint();
         }
         let scenario = self.memo.run().plan.scenario();
-        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats);
+        // A pointer or a key that is down may be moving a threshold.
+        let moving = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
+        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats, moving);
         let frame = ui.input(|input| input.stable_dt);
         if ui.ctx().current_pass_index() == 0 && self.tuner.work(frame) {
             ui.ctx().request_repaint();
@@ -214,7 +223,8 @@ impl App {
         };
         let layout = Layout::new(page, sheet);
         let cursor = self.cursor();
-        self.plots.otherwise = ["detection.xi2", "detection.xi1"].map(|key| self.state.otherwise_si(key, &self.base));
+        let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
+        self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
         let Self {
             state,
             base,
@@ -266,9 +276,9 @@ impl App {
                 let low = rect.width() < 796.0 && rect.height() < 430.0;
                 if low {
                     let area = egui::ScrollArea::vertical().auto_shrink(false);
-                    area.show(ui, |ui| plots::plots(ui, run, cursor, plots, out));
+                    area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));
                 } else {
-                    plots::plots(ui, run, cursor, plots, out);
+                    plots::plots(ui, (run, memo.version()), cursor, plots, out);
                 }
             }),
             Tab::Plane => {
@@ -325,7 +335,7 @@ impl App {
                     Ok(())
                 }),
                 Command::Tune(tuning) => self.state.tuning = tuning,
-                Command::Take { method, threshold, length } => self.take(method, threshold, length),
+                Command::Take { rule, threshold, length } => self.take(rule, threshold, length),
                 Command::HoldStudy(held) => self.tuner.hold(held),
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetXi1(xi1) => self.change(&["detection.xi1"], |s| {
@@ -369,8 +379,8 @@ impl App {
     }
 
     /// Takes what a study has shown.
-    fn take(&mut self, method: Rule, threshold: f64, length: Option<u64>) {
-        let key = match (method, self.state.scenario.detection.xi1_rule) {
+    fn take(&mut self, rule: Rule, threshold: f64, length: Option<u64>) {
+        let key = match (rule, self.state.scenario.detection.xi1_rule) {
             (Rule::Jfd, Xi1Rule::Constant) => "detection.xi1",
             (Rule::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
             _ => "detection.xi2",

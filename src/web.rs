@@ -1,6 +1,6 @@
 //! The shell in the browser: starts the interface on a canvas and tells the page what happens.
 //!
-//! The page (`web/loader.js`) owns the document; this file only calls the hooks that it was given.
+//! The page (`index.html` and `web/loader.js`) owns the document; this file only calls the hooks that it was given.
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
 mod widgets;

@@ -66,7 +66,7 @@ async function startOnSome(core) {
       const used = await core.start(canvas, options, hooks);
       mirror.renderer = used;
       if (settings.renderer !== "auto" && settings.renderer !== used) {
-        notices.push(`renderer=${settings.renderer} is not available in this browser here; drawing with ${used} instead.`);
+        notices.push(`renderer=${settings.renderer} is not available in this browser; the page draws with ${used} instead.`);
       }
       return true;
     } catch (error) {

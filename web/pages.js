@@ -34,7 +34,7 @@ export function showFailure(detail) {
 }
 
 export function showLost(detail) {
-  byId("failed-title").textContent = "The graphics were taken away";
+  byId("failed-title").textContent = "The page lost its graphics";
   byId("failed-text").textContent =
     "The browser or its graphics driver dropped the page's drawing context, for example after sleep or a driver update. Reloading brings it back.";
   showFailure(detail);

@@ -20,7 +20,7 @@ export function readQuery(search) {
   for (const name of new Set(query.keys())) {
     if (Object.hasOwn(PARAMETERS, name) || FOREIGN.test(name)) continue;
     const known = Object.keys(PARAMETERS).filter((key) => !PARAMETERS[key].flag);
-    notices.push(`There is no parameter “${clip(name)}”. Known: ${known.join(", ")}. It was left out.`);
+    notices.push(`There is no parameter “${clip(name)}”, so it was ignored. Known parameters: ${known.join(", ")}.`);
   }
   return { settings, notices };
 }
@@ -28,11 +28,11 @@ export function readQuery(search) {
 function read(name, { fallback, allowed, flag }, values, notices) {
   if (flag) return true;
   if (values.length > 1) {
-    notices.push(`${name} is given ${values.length} times; the first one counts.`);
+    notices.push(`${name} is given ${values.length} times; the first value was used.`);
   }
   const value = values[0];
   if (allowed.includes(value)) return value;
-  notices.push(`${name}=${clip(value)} is not known. Allowed: ${allowed.join(", ")}. The page chose by itself.`);
+  notices.push(`${name}=${clip(value)} is not allowed, so ${fallback} was used. Allowed values: ${allowed.join(", ")}.`);
   return fallback;
 }
 

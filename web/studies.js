@@ -22,7 +22,7 @@ export function studies(core, module) {
     worker.onmessageerror = () => fail("its answer could not be read");
     worker.onmessage = ({ data }) => {
       if (data?.answer instanceof Uint8Array) core.study_answered(data.answer);
-      else fail(data?.failed ?? "it said what is no answer");
+      else fail(data?.failed ?? "it sent something that is not an answer");
     };
     worker.postMessage({ module });
   }

@@ -27,7 +27,7 @@ pub struct Chart {
     pub caption: String,
 }
 
-/// Two axes and what is drawn between them: map, spans, bands, series and verticals, back to front.
+/// Two axes and what is drawn between them: map, spans, bands, bars, series, intervals and verticals, back to front.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Panel {
     /// What it shows, above it; empty where the chart's title says it.
@@ -46,12 +46,20 @@ pub struct Panel {
     pub spans: Vec<Span>,
     /// Areas along curves, such as their confidence.
     pub bands: Vec<Band>,
+    /// Filled rectangles, such as those of a histogram.
+    pub bars: Vec<Bars>,
     /// Curves and rows of marks.
     pub series: Vec<Series>,
+    /// Marks that reach from one value to another, such as a mean with its scatter.
+    pub intervals: Vec<Intervals>,
     /// Dashed lines across the whole height, such as detections.
     pub verticals: Vec<Vertical>,
     /// Named places of the vertical axis, at its right end.
     pub rungs: Vec<Rung>,
+    /// Words at the right of the data, each beside a place of the vertical axis.
+    pub asides: Vec<Aside>,
+    /// Whether the upper edge says where a solid curve lies beyond it.
+    pub off_scale: bool,
 }
 
 impl Panel {
@@ -67,9 +75,13 @@ impl Panel {
             map: None,
             spans: Vec::new(),
             bands: Vec::new(),
+            bars: Vec::new(),
             series: Vec::new(),
+            intervals: Vec::new(),
             verticals: Vec::new(),
             rungs: Vec::new(),
+            asides: Vec::new(),
+            off_scale: false,
         }
     }
 }
@@ -89,15 +101,38 @@ pub struct Axis {
     pub range: Option<[f64; 2]>,
     /// Which numbers are marked, and how they lie.
     pub steps: Steps,
-    /// Marks at given places (SI), in place of those of `steps`.
+    /// Marks at given places (SI), in place of those of `steps`: with names as texts, each is a category.
     pub ticks: Vec<Tick>,
+    /// Whether it runs the other way: to the left, or downward.
+    pub falling: bool,
+    /// Whether its marks have no texts, for those of a panel below stand for them.
+    pub bare: bool,
 }
 
 impl Axis {
     /// An axis whose marks are round numbers.
     #[must_use]
     pub const fn new(name: &'static str, si_unit: &'static str, unit: &'static str, scale: f64) -> Self {
-        Self { name, si_unit, unit, scale, range: None, steps: Steps::Decimal, ticks: Vec::new() }
+        Self {
+            name,
+            si_unit,
+            unit,
+            scale,
+            range: None,
+            steps: Steps::Decimal,
+            ticks: Vec::new(),
+            falling: false,
+            bare: false,
+        }
+    }
+
+    /// An axis of categories, one at each whole number from 0 on, down the page or to the right.
+    #[must_use]
+    pub fn categories(name: &'static str, texts: impl IntoIterator<Item = String>, falling: bool) -> Self {
+        let tick = |(k, text): (usize, String)| Tick { value: k as f64, text };
+        let ticks: Vec<Tick> = texts.into_iter().enumerate().map(tick).collect();
+        let range = Some([-0.5, ticks.len().max(1) as f64 - 0.5]);
+        Self { range, ticks, falling, ..Self::new(name, "1", "1", 1.0) }
     }
 
     /// Its name with the unit, such as `θ_L (°)`.
@@ -145,6 +180,8 @@ pub struct Series {
     pub style: Style,
     /// Whether it stands back behind the others.
     pub faint: bool,
+    /// Whether each of its marks is drawn, though they touch.
+    pub every: bool,
     /// Points, SI; a NaN is a gap.
     pub points: Vec<[f64; 2]>,
 }
@@ -153,7 +190,7 @@ impl Series {
     /// A series in full strength.
     #[must_use]
     pub fn new(name: impl Into<String>, role: Role, style: Style, points: Vec<[f64; 2]>) -> Self {
-        Self { name: name.into(), role, style, faint: false, points }
+        Self { name: name.into(), role, style, faint: false, every: false, points }
     }
 }
 
@@ -162,6 +199,10 @@ impl Series {
 pub enum Style {
     /// A solid line.
     Line,
+    /// A thin line: what another is compared with.
+    Thin,
+    /// A heavy line: where something truly is.
+    Heavy,
     /// A dashed line.
     Dashed,
     /// A triangle at each point.
@@ -170,6 +211,8 @@ pub enum Style {
     Circles,
     /// A dot at each point: what is set.
     Dots,
+    /// A diamond at each point.
+    Diamonds,
     /// A ring around each point: what is advised.
     Rings,
     /// A dot at each point, with lines to all four sides.
@@ -182,10 +225,13 @@ impl Style {
     pub fn name(self) -> &'static str {
         match self {
             Self::Line => "line",
+            Self::Thin => "thin",
+            Self::Heavy => "heavy",
             Self::Dashed => "dashed",
             Self::Triangles => "triangles",
             Self::Circles => "circles",
             Self::Dots => "dots",
+            Self::Diamonds => "diamonds",
             Self::Rings => "rings",
             Self::Targets => "targets",
         }
@@ -201,6 +247,28 @@ pub struct Band {
     pub faint: bool,
     /// Its edges at each point of the curve, SI: on one side, and on the other. A NaN is a gap.
     pub edges: Vec<[[f64; 2]; 2]>,
+}
+
+/// Filled rectangles of one meaning.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bars {
+    /// Name in the legend; bars of one name and role are one entry, without a name there is none.
+    pub name: String,
+    /// What they mean.
+    pub role: Role,
+    /// Two opposite corners of each, SI.
+    pub corners: Vec<[[f64; 2]; 2]>,
+}
+
+/// Marks with their ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Intervals {
+    /// Name in the legend; intervals of one name and role are one entry, without a name there is none.
+    pub name: String,
+    /// What they mean.
+    pub role: Role,
+    /// One end, the mark, and the other end of each, SI; a mark with an end that is a NaN stands alone.
+    pub ends: Vec<[[f64; 2]; 3]>,
 }
 
 /// A vertical dashed line.
@@ -219,8 +287,21 @@ pub struct Vertical {
 pub struct Span {
     /// What it is, in the legend.
     pub name: &'static str,
+    /// What it means.
+    pub role: Role,
+    /// Whether a strip at the foot of the data stands for it, in place of a shade over the whole height.
+    pub low: bool,
     /// Its ends, SI.
     pub ends: [f64; 2],
+}
+
+/// Words beside a place of the vertical axis.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Aside {
+    /// Where, SI.
+    pub y: f64,
+    /// Its lines, the one that matters most first: what does not fit is left out.
+    pub lines: Vec<String>,
 }
 
 /// A named place of the vertical axis.

@@ -4,6 +4,7 @@
 
 use crate::chart::Chart;
 use crate::run::{Run, simulate};
+use crate::scenario::overrides::whole;
 use crate::scenario::preset::{PRESETS, find};
 use crate::scenario::{Scenario, ScenarioError};
 use crate::study::Job;
@@ -32,6 +33,7 @@ pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
         let run = simulate(&preset.scenario()?)?;
         add(format!("run {}", preset.name), run.fingerprint());
         add(format!("verdict {}", preset.name), hash(&verdict(&run)));
+        add(format!("events {}", preset.name), hash(&events(&run)));
     }
     for number in Number::ALL {
         let mut job = FigureJob::new(number, &find(number.preset())?.scenario()?)?;
@@ -47,10 +49,11 @@ pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
     let map = job.map();
     let cells = json!([map.arc_lengths, map.bends, map.deviation, map.epsilon]);
     add("map".into(), hash(&cells));
-    let cells = [200, 400, 600].map(|length| vec![format!("filter.length={length}")]).into();
-    let mut study = Study::new(Spec { scenario: noisy, repeats: 50, late: 1.0, cells, xi2: None, xi1: None })?;
+    let cells = [200, 400, 600].into_iter().map(|length| Ok(vec![whole("filter.length", length)?]));
+    let cells = cells.collect::<Result<_, ScenarioError>>()?;
+    let mut study = Study::new(Spec { cells, ..Spec::of(noisy, 50) })?;
     study.finish();
-    let points = |cell| Rule::ALL.map(|method| (method.name(), study.curve(cell, method)));
+    let points = |cell| Rule::ALL.iter().map(|&rule| (rule.name(), study.curve(cell, rule))).collect::<Vec<_>>();
     let curves: Vec<Value> = (0..study.cells().len()).map(|cell| json!(points(cell))).collect();
     add("study".into(), hash(&json!(curves)));
     Ok(all)
@@ -66,6 +69,12 @@ fn noisy() -> Result<Scenario, ScenarioError> {
 
 fn verdict(run: &Run) -> Value {
     json!([run.crossings(), run.detection(), run.contact_time()])
+}
+
+/// Events, each with the place of its contact, which JSON leaves out otherwise.
+fn events(run: &Run) -> Value {
+    let events: Vec<Value> = run.events().iter().map(|event| json!([event, event.detection])).collect();
+    json!(events)
 }
 
 fn figure(chart: &Chart) -> Value {

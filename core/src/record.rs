@@ -56,6 +56,13 @@ impl Truth {
     }
 }
 
+/// The truth in configurations that are commanded one after the other and held still, before any load.
+#[must_use]
+pub fn held_still(plan: &Plan, configurations: impl IntoIterator<Item = Configuration>) -> Vec<Truth> {
+    let plant = Plant::new(plan);
+    configurations.into_iter().map(|configuration| Truth::of(&plant, configuration, 0.0)).collect()
+}
+
 /// An experiment as it was stored.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Recording {
@@ -67,6 +74,17 @@ pub struct Recording {
 
 impl Recording {
     /// The experiment of a plan, simulated.
+    ///
+    /// ```
+    /// use centrode_core::record::Recording;
+    /// use centrode_core::scenario::{Plan, Scenario};
+    ///
+    /// let recording = Recording::simulated(&Plan::new(&Scenario::default())?);
+    /// assert_eq!(recording.entries.len(), 10_001);
+    /// let truth = recording.truth.as_ref().expect("a simulation knows it");
+    /// assert!(truth[0].held.is_none() && truth[9_000].held.is_some());
+    /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+    /// ```
     #[must_use]
     pub fn simulated(plan: &Plan) -> Self {
         let mut entries = Vec::with_capacity(plan.samples());

@@ -6,7 +6,7 @@ pub use replay::Replay;
 
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
-use crate::detect::filter::Motion;
+use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
 use crate::model::Vec3;
 use crate::plant::Shape;
@@ -32,7 +32,7 @@ pub struct Sample {
     /// The tracker's reading, as held.
     pub reading: Reading,
     /// Position and motion of the end disk as the filtered tracker shows them.
-    pub motion: Motion,
+    pub motion: FilteredMotion,
     /// Load cell readings τ_lc, N. NaN where the statics are not defined.
     pub tau_lc: Vec3,
     /// What the two methods make of it.
@@ -228,6 +228,19 @@ impl Run {
 
     /// Brings the run up to date with a plan, and makes anew no more than that asks for: a threshold neither filters nor records
     /// again, a filter does not record again.
+    ///
+    /// ```
+    /// use centrode_core::run::{Anew, simulate};
+    /// use centrode_core::scenario::{Plan, Scenario, Threshold};
+    ///
+    /// let mut scenario = Scenario::default();
+    /// let mut run = simulate(&scenario)?;
+    /// scenario.detection.xi2 = Threshold::On(0.004);
+    /// assert_eq!(run.update(Plan::new(&scenario)?), Anew::Events);
+    /// scenario.filter.length = 200;
+    /// assert_eq!(run.update(Plan::new(&scenario)?), Anew::Evidence);
+    /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+    /// ```
     pub fn update(&mut self, plan: Plan) -> Anew {
         let (settings, before) = (Settings::of(&plan), &self.judged.settings);
         if plan == self.plan {
@@ -386,8 +399,17 @@ impl Fingerprint {
 
 /// Runs a scenario and keeps every sample.
 ///
+/// ```
+/// let run = centrode_core::run::simulate(&centrode_core::scenario::Scenario::default())?;
+/// let (contact, detection) = (run.contact_time().expect("met"), run.detection().expect("detected"));
+/// assert!(contact < detection.time);
+/// assert!((detection.location - 0.015).abs() < 0.002, "disk 2 is at 15 mm");
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
+///
 /// # Errors
-/// When the scenario is impossible, or its run is longer than [`MAX_KEPT`]: which key, which value, what is allowed.
+/// [`ScenarioError::Value`] when the scenario is impossible, or its run is longer than [`MAX_KEPT`]: which key, which value,
+/// what is allowed.
 pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
     Ok(Run::new(kept(Plan::new(scenario)?)?))
 }
@@ -397,10 +419,18 @@ pub fn simulate(scenario: &Scenario) -> Result<Run, ScenarioError> {
 /// # Errors
 /// [`ScenarioError::Value`] names `motion.end` when it is longer than [`MAX_KEPT`].
 pub fn kept(plan: Plan) -> Result<Plan, ScenarioError> {
-    if plan.samples() <= MAX_KEPT {
+    at_most(plan, MAX_KEPT)
+}
+
+/// A plan whose run has at most so many samples.
+///
+/// # Errors
+/// [`ScenarioError::Value`] names `motion.end` when it has more.
+pub fn at_most(plan: Plan, samples: usize) -> Result<Plan, ScenarioError> {
+    if plan.samples() <= samples {
         return Ok(plan);
     }
-    let allowed = Allowed::Kept(MAX_KEPT, plan.samples());
+    let allowed = Allowed::Kept(samples, plan.samples());
     Err(Refused::error("motion.end", Quantity::Time, Value::Number(plan.scenario().motion.end), allowed))
 }
 
@@ -449,7 +479,7 @@ mod tests {
     fn noise_around_a_threshold_is_one_event() {
         let run = find("bench").and_then(|preset| preset.scenario()).and_then(|s| simulate(&s)).expect("bench");
         let of = |detector| run.events().iter().filter(move |event| event.detector == detector);
-        for detector in crate::detect::Method::ALL {
+        for &detector in crate::detect::Method::ALL {
             assert_eq!(of(detector).count(), 1, "{:?}", run.events());
         }
         let centrode = of(crate::detect::Method::Fcd).next().expect("one");

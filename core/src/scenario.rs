@@ -1,17 +1,19 @@
 //! What a person sets, and what it comes to.
 //!
 //! Reading order: [`inputs`] (the values, as written in TOML), [`keys`] (the table of them: what each means and may be),
-//! [`text`] (reading them), [`refusal`] (what is wrong where), [`plan`] (the same, validated and resolved: what follows
-//! cannot fail), [`motion`] (the commanded bend), [`preset`].
+//! [`text`] (reading them), [`overrides`] (one setting in place of another), [`refusal`] (what is wrong where), [`plan`] (the
+//! same, validated and resolved: what follows cannot fail), [`motion`] (the commanded bend), [`preset`].
 
 pub mod inputs;
 pub mod keys;
 pub mod motion;
+pub mod overrides;
 pub mod plan;
 pub mod preset;
 pub mod refusal;
 pub mod text;
 
 pub use inputs::*;
+pub use overrides::Override;
 pub use plan::Plan;
 pub use refusal::{Refused, ScenarioError};

@@ -1,15 +1,15 @@
-//! What one run does not show: repeats, figures, tables and maps.
+//! What runs show: one over time, and what one does not show: repeats, figures, tables and maps.
 //!
-//! Everything here is a [`Job`] that works a piece at a time, so that a frame of the page, a worker or a loop on a
+//! Everything but the course of one run is a [`Job`] that works a piece at a time, so that a frame of the page, a worker or a loop on a
 //! terminal can drive it, and whose result may be looked at before it is complete. Same inputs, same bits.
 
+pub mod course;
 pub mod figure;
 pub mod map;
 pub mod seed;
 pub mod shared;
 pub mod table2;
 pub mod timeline;
-pub mod truth;
 pub mod tuning;
 
 /// Work in pieces of a few milliseconds.

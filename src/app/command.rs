@@ -64,7 +64,7 @@ pub enum Command {
     /// Take a threshold, ξ2 (m) or ξ1 (N·m, or k where it follows the shape), and a filter length.
     Take {
         /// Whose threshold it is.
-        method: Rule,
+        rule: Rule,
         /// The threshold.
         threshold: f64,
         /// The filter length; none leaves it.

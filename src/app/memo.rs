@@ -1,49 +1,22 @@
 //! Scenario → recording → conclusions → loci, each made anew when what it depends on changes.
 
-use thiserror::Error;
-
 use crate::show::track::Trace;
-use centrode_core::run::{Anew, Run, simulate};
+use centrode_core::run::{Anew, Run, at_most, simulate};
 use centrode_core::scenario::{Plan, Scenario, ScenarioError};
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
 pub const MAX_SAMPLES: usize = 200_000;
 
-/// Why a scenario is not run.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Refusal {
-    /// It is impossible.
-    #[error(transparent)]
-    Impossible(#[from] ScenarioError),
-    /// It is too long for a page.
-    #[error(
-        "motion.end = {end} s at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}"
-    )]
-    TooLong {
-        /// `motion.end`, s.
-        end: f64,
-        /// `loop_rate`, Hz.
-        rate: f64,
-        /// Samples it would have.
-        samples: usize,
-    },
-}
-
 /// Whether the page can run a scenario.
 ///
 /// # Errors
-/// Why not.
-pub fn check(scenario: &Scenario) -> Result<(), Refusal> {
+/// Why not: an impossible value, or a run that is too long for a page.
+pub fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
     plan(scenario).map(drop)
 }
 
-fn plan(scenario: &Scenario) -> Result<Plan, Refusal> {
-    let plan = Plan::new(scenario)?;
-    let samples = plan.samples();
-    if samples > MAX_SAMPLES {
-        return Err(Refusal::TooLong { end: scenario.motion.end, rate: scenario.loop_rate, samples });
-    }
-    Ok(plan)
+fn plan(scenario: &Scenario) -> Result<Plan, ScenarioError> {
+    at_most(Plan::new(scenario)?, MAX_SAMPLES)
 }
 
 /// The last run that was possible, and why the wanted one is not.
@@ -52,7 +25,8 @@ pub struct Memo {
     wanted: Scenario,
     run: Run,
     trace: Trace,
-    refusal: Option<Refusal>,
+    version: u64,
+    refusal: Option<ScenarioError>,
 }
 
 impl Memo {
@@ -63,7 +37,7 @@ impl Memo {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let run = simulate(&Scenario::default()).expect("the default scenario is possible");
-        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, refusal: None };
+        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, version: 0, refusal: None };
         memo.update(scenario);
         memo
     }
@@ -82,7 +56,9 @@ impl Memo {
                     (detection.armed_from, detection.min_speed)
                 };
                 let before = looks(&self.run);
-                if self.run.update(plan) > Anew::Events || looks(&self.run) != before {
+                let anew = self.run.update(plan);
+                self.version += 1;
+                if anew > Anew::Events || looks(&self.run) != before {
                     self.trace = Trace::new(&self.run);
                 }
             }
@@ -97,6 +73,12 @@ impl Memo {
         &self.run
     }
 
+    /// A number that is another for every other run.
+    #[must_use]
+    pub fn version(&self) -> u64 {
+        self.version
+    }
+
     /// Its loci.
     #[must_use]
     pub fn trace(&self) -> &Trace {
@@ -105,7 +87,7 @@ impl Memo {
 
     /// Why the wanted scenario is not the one that was run.
     #[must_use]
-    pub fn refusal(&self) -> Option<&Refusal> {
+    pub fn refusal(&self) -> Option<&ScenarioError> {
         self.refusal.as_ref()
     }
 }

@@ -11,6 +11,7 @@ mod tuning;
 pub mod viewport;
 
 use crate::app::charts::notation;
+use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::source::Source;
@@ -21,10 +22,10 @@ use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
+use crate::app::words::refusal;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
-use map::Picture;
 use tuning::TuningState;
 
 /// Space around the content.
@@ -36,7 +37,9 @@ const WIDE: f32 = 700.0;
 /// Pictures that are kept between frames.
 #[derive(Default)]
 pub struct StageState {
-    map: Option<Picture>,
+    figure: Option<Picture<u64>>,
+    estimates: Option<Picture<u64>>,
+    map: Option<Picture<map::Key>>,
     tuning: TuningState,
 }
 
@@ -89,7 +92,7 @@ pub fn stage(
         body.min.y += source::LINE + 6.0;
     }
     if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
-        let said = format!("{} cannot be shown: {refused}.", inputs.stage.name());
+        let said = format!("{} cannot be shown: {}.", inputs.stage.name(), refusal::told(refused));
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(body).id_salt("refused"));
         inner.add(egui::Label::new(notation::job(&said, 13.5, theme.error)).wrap());
         return;
@@ -99,8 +102,12 @@ pub fn stage(
         return;
     }
     match studies.found() {
-        Some((Found::Figure(shown), _)) => figure::figure(ui, body, shown, inputs),
-        Some((Found::Table(shown, rows), _)) => table::table(ui, body, shown, rows),
+        Some((Found::Figure(shown), version)) => {
+            figure::figure(ui, body, (shown, version), inputs, &mut state.figure);
+        }
+        Some((Found::Table(shown, rows), version)) => {
+            table::table(ui, body, (shown, rows, version), &mut state.estimates);
+        }
         Some((Found::Map(shown), version)) => map::map(ui, body, shown, version, inputs, &mut state.map, out),
         None => {
             text::paint(ui, body.center(), Align2::CENTER_CENTER, "Computing …", fonts::regular(13.5), theme.dim);

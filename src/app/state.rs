@@ -56,7 +56,8 @@ pub struct State {
 #[serde(default)]
 pub struct Tuning {
     /// How alarms are raised.
-    pub method: Rule,
+    #[serde(rename = "method")]
+    pub rule: Rule,
     /// The most runs without contact that may alarm, as a share.
     pub wish: f64,
     /// Repeats of each run.
@@ -65,7 +66,7 @@ pub struct Tuning {
 
 impl Default for Tuning {
     fn default() -> Self {
-        Self { method: Rule::Fcd, wish: 0.05, repeats: 100 }
+        Self { rule: Rule::Fcd, wish: 0.05, repeats: 100 }
     }
 }
 

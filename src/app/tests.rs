@@ -19,7 +19,7 @@ fn noted(commands: Vec<Command>) -> Vec<(&'static str, String)> {
 
 #[test]
 fn a_refused_recommendation_is_noted_at_the_control_refused() {
-    let take = |method, threshold, length| noted(vec![Command::Take { method, threshold, length }]);
+    let take = |rule, threshold, length| noted(vec![Command::Take { rule, threshold, length }]);
     for (notes, key, said) in [
         (take(Rule::Fcd, 0.005, Some(99_999_999)), "filter.length", "Filter length N 99999999: a whole number from 1"),
         (take(Rule::Fcd, -1.0, Some(100)), "detection.xi2", "ξ2 (centrode) −1000.0 mm: a finite number, 0 mm"),
@@ -63,5 +63,5 @@ fn plots_go_back_to_what_the_page_remembers() {
     app.apply(&ctx, &mut vec![Command::Set(xi2, 3.5), Command::Switch(xi2, false)]);
     // Nothing is painted: its textures are dropped.
     ctx.run_ui(egui::RawInput::default(), |ui| app.ui(ui)).textures_delta.clear();
-    assert_eq!(app.plots.otherwise[0], 0.0035);
+    assert_eq!(app.plots.otherwise[&Method::Fcd], 0.0035);
 }

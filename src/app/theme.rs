@@ -121,7 +121,7 @@ impl Theme {
             surface: hex(0xE9EDF1, 0x0C0F13),
             panel: hex(0xFFFFFF, 0x161B21),
             raised: hex(0xF1F4F7, 0x20262E),
-            accent: hex(0x5A47D1, 0xA394FF),
+            accent: color(palette.choice),
             on_accent: hex(0xFFFFFF, 0x14101F),
             error: hex(0xB3203E, 0xFF8296),
         }

@@ -6,8 +6,9 @@ pub use about::About;
 
 use super::ScenarioArgs;
 use super::draw::{self, Format as Drawing};
-use super::output::{Failure, NewFile, cell, finish_csv, write_record};
+use super::output::{Failure, NewFile, finish_csv, write_record};
 use super::report::{Report, Tally};
+use centrode_core::chart::csv::cell;
 use centrode_core::chart::notation::plain;
 use centrode_core::detect::{Method, Settings};
 use centrode_core::record::log::frame::{Frame, Setting};
@@ -170,8 +171,10 @@ impl AnalyzeArgs {
             return Ok(Method::ALL.into());
         }
         let of = |name: &String| {
-            Method::ALL.into_iter().find(|method| method.key() == name).ok_or_else(|| {
-                Failure::Input(format!("--detectors: there is no detector called {name:?}; known are: fcd, jfd"))
+            Method::ALL.iter().copied().find(|method| method.key() == name).ok_or_else(|| {
+                let known: Vec<_> = Method::ALL.iter().map(|method| method.key()).collect();
+                let known = known.join(", ");
+                Failure::Input(format!("--detectors: there is no detector called {name:?}; known are: {known}"))
             })
         };
         self.detectors.iter().map(of).collect()

@@ -39,7 +39,8 @@ impl Kind {
     }
 
     fn named(flag: &str, path: &Path, known: &str) -> Result<Self, Failure> {
-        let wrong = |what: String| Failure::Input(format!("{flag} {}: {what}; known are: {known}", path.display()));
+        let wrong =
+            |what: String| Failure::Input(format!("{flag} {}: {what}; known extensions: {known}", path.display()));
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
             Some("svg") => Ok(Self::Drawing(Format::Svg)),
@@ -57,7 +58,7 @@ impl Format {
         match Kind::named(flag, path, ".svg, .png")? {
             Kind::Drawing(format) => Ok(format),
             Kind::Csv => {
-                Err(Failure::Input(format!("{flag} {}: not a drawing; known are: .svg, .png", path.display())))
+                Err(Failure::Input(format!("{flag} {}: not a drawing; known extensions: .svg, .png", path.display())))
             }
         }
     }
@@ -88,7 +89,7 @@ pub fn write(file: &mut NewFile, chart: &Chart, format: Format) -> Result<(), Fa
 fn vectors(chart: &Chart) -> String {
     let single = chart.panels.len() < 2;
     let (size, text) = if single { (SINGLE, TEXT) } else { (SEVERAL, SMALL_TEXT) };
-    let drawing = layout(chart, &Page { size, text, words: true });
+    let drawing = layout(chart, &Page { words: true, pixel: 1.0 / f64::from(PIXELS), ..Page::screen(size, text) });
     let color = |ink: Ink| {
         let [r, g, b, _] = ink::color(ink, &Palette::LIGHT, false).to_bytes();
         [r, g, b]

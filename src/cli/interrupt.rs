@@ -1,6 +1,13 @@
 //! What an interrupt does: files that are not complete go, and the command ends with exit code 130.
 
+#[cfg(not(unix))]
+mod elsewhere;
+#[cfg(unix)]
+mod unix;
+
 use super::output::INTERRUPTED;
+#[cfg(not(unix))]
+use elsewhere as system;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, Write};
@@ -9,6 +16,8 @@ use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tempfile::NamedTempFile;
+#[cfg(unix)]
+use unix as system;
 
 /// Files that are not complete. Whoever makes one, completes one or clears up holds the lock, so that an interrupt finds
 /// either the file under its name or the part to remove.
@@ -22,9 +31,10 @@ fn parts() -> MutexGuard<'static, BTreeSet<PathBuf>> {
     PARTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP or Ctrl-C) clears up and ends the process.
+/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP or Ctrl-C) clears up and ends the process. A hangup that whoever started
+/// it has it ignore, as `nohup` does, stays ignored.
 pub fn listen() {
-    if let Err(error) = ctrlc::set_handler(heard) {
+    if let Err(error) = system::on_interrupt(heard) {
         // With standard error closed as well, nothing can be said.
         let _ = writeln!(io::stderr(), "centrode: an interrupt may leave a part of a file behind: {error}");
     }
@@ -72,7 +82,7 @@ impl Part {
         let mut builder = tempfile::Builder::new();
         builder.prefix(&name).suffix(".part");
         let replaced = fs::metadata(target).ok().map(|meta| meta.permissions());
-        let usual = usual_permissions();
+        let usual = system::usual_permissions();
         if let Some(permissions) = &usual {
             builder.permissions(permissions.clone());
         }
@@ -126,17 +136,4 @@ impl Drop for Part {
 /// The error without the name of the part, which nobody asked for.
 fn bare(error: &io::Error) -> io::Error {
     error.raw_os_error().map_or_else(|| error.kind().into(), io::Error::from_raw_os_error)
-}
-
-/// Readable as the process's umask has it, not by the owner alone.
-#[cfg(unix)]
-fn usual_permissions() -> Option<fs::Permissions> {
-    use std::os::unix::fs::PermissionsExt;
-    Some(fs::Permissions::from_mode(0o666))
-}
-
-/// What the system gives.
-#[cfg(not(unix))]
-fn usual_permissions() -> Option<fs::Permissions> {
-    None
 }

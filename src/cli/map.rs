@@ -7,7 +7,7 @@ use centrode_core::chart::csv;
 use centrode_core::scenario::{Plan, Scenario};
 use centrode_core::study::Job;
 use centrode_core::study::map::chart::chart;
-use centrode_core::study::map::{Map, MapJob, largest_deviation, largest_epsilon};
+use centrode_core::study::map::{ContactMap, MapJob, largest_deviation, largest_epsilon};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -71,7 +71,7 @@ struct Sight {
 }
 
 impl Sight {
-    fn new(map: &Map, values: &[f64], setting: Option<f64>) -> Self {
+    fn new(map: &ContactMap, values: &[f64], setting: Option<f64>) -> Self {
         let finds = |&value: &f64| setting.is_some_and(|setting| value > setting);
         let first = values.iter().position(finds);
         Self {
@@ -122,7 +122,7 @@ impl MapArgs {
 }
 
 /// Every cell, a row each.
-fn numbers(map: &Map) -> String {
+fn numbers(map: &ContactMap) -> String {
     let columns = map.bends.len();
     let row = |cell: usize| {
         [map.arc_lengths[cell / columns], map.bends[cell % columns], map.deviation[cell], map.epsilon[cell]]

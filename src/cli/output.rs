@@ -67,11 +67,6 @@ pub fn finish_csv(csv: csv::Writer<NewFile>) -> Result<(), Failure> {
     csv.into_inner().map_err(|error| Failure::Input(format!("cannot write the CSV: {error}")))?.finish()
 }
 
-/// A number as it is read back; what is not defined stays empty.
-pub fn cell(value: f64) -> String {
-    if value.is_nan() { String::new() } else { value.to_string() }
-}
-
 fn blame(csv: &csv::Writer<NewFile>, error: csv::Error) -> Failure {
     let error = match error.into_kind() {
         csv::ErrorKind::Io(error) => error,

@@ -5,8 +5,9 @@
 
 use super::ScenarioArgs;
 use super::logfile::LogFile;
-use super::output::{Failure, NewFile, cell, finish_csv, write_record};
+use super::output::{Failure, NewFile, finish_csv, write_record};
 use super::report::{Contact, Report, Tally};
+use centrode_core::chart::csv::cell;
 use centrode_core::run::{CHANNELS, Simulation};
 use centrode_core::scenario::Plan;
 use clap::Args;

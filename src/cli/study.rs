@@ -7,10 +7,11 @@ mod work;
 use super::ScenarioArgs;
 use super::draw::{self, Format};
 use super::output::{Failure, NewFile, json};
-use centrode_core::scenario::Scenario;
-use centrode_core::scenario::Xi1Rule;
+use centrode_core::detect::Method;
+use centrode_core::scenario::{Override, Scenario, Xi1Rule};
 use centrode_core::study::Job;
 use centrode_core::study::tuning::chart::chart;
+use centrode_core::study::tuning::levels::Levels;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::sweep::{Sweep, SweepError, combinations};
 use centrode_core::study::tuning::watch::Rule;
@@ -37,8 +38,8 @@ pub struct StudyArgs {
     #[arg(long = "sweep", value_name = "KEY=VALUES")]
     sweeps: Vec<String>,
     /// How alarms are raised, for the recommendation: by the centrode, by joint forces, by either, by both at once.
-    #[arg(long, value_enum, default_value_t = MethodArg::Fcd)]
-    method: MethodArg,
+    #[arg(long = "method", value_name = "METHOD", value_enum, default_value_t = RuleArg::Fcd)]
+    rule: RuleArg,
     /// The share of runs without contact that may alarm, above 0 and below 1.
     #[arg(long, value_name = "RATE", default_value_t = 0.05)]
     false_alarms: f64,
@@ -54,20 +55,20 @@ pub struct StudyArgs {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum MethodArg {
+enum RuleArg {
     Fcd,
     Jfd,
     Or,
     And,
 }
 
-impl From<MethodArg> for Rule {
-    fn from(method: MethodArg) -> Self {
-        match method {
-            MethodArg::Fcd => Self::Fcd,
-            MethodArg::Jfd => Self::Jfd,
-            MethodArg::Or => Self::Or,
-            MethodArg::And => Self::And,
+impl From<RuleArg> for Rule {
+    fn from(rule: RuleArg) -> Self {
+        match rule {
+            RuleArg::Fcd => Self::Fcd,
+            RuleArg::Jfd => Self::Jfd,
+            RuleArg::Or => Self::Or,
+            RuleArg::And => Self::And,
         }
     }
 }
@@ -90,29 +91,29 @@ struct Report<'a> {
 #[derive(Debug, Serialize)]
 struct CellReport<'a> {
     /// What it changes in the scenario.
-    set: &'a [String],
+    set: &'a [Override],
     runs_free: u64,
     /// Null without a contact.
     runs_contact: Option<u64>,
     /// Truth, s; null when contact never begins.
     contact_time: Option<f64>,
     /// At the scenario's own thresholds; null where one is off.
-    own: ByMethod<Option<Point>>,
+    own: ByRule<Option<Point>>,
     /// At all thresholds, without the inner points of stretches in which nothing else changes.
-    curves: ByMethod<Vec<Point>>,
+    curves: ByRule<Vec<Point>>,
     /// Which threshold to take in this cell.
     advised: Verdict,
 }
 
 #[derive(Debug, Serialize)]
-struct ByMethod<T> {
+struct ByRule<T> {
     fcd: T,
     jfd: T,
     or: T,
     and: T,
 }
 
-impl<T> ByMethod<T> {
+impl<T> ByRule<T> {
     fn of(of: impl Fn(Rule) -> T) -> Self {
         Self { fcd: of(Rule::Fcd), jfd: of(Rule::Jfd), or: of(Rule::Or), and: of(Rule::And) }
     }
@@ -123,7 +124,7 @@ struct Recommendation<'a> {
     #[serde(flatten)]
     verdict: &'a Verdict,
     /// What the cell to take changes in the scenario, and its filter length.
-    set: Option<&'a [String]>,
+    set: Option<&'a [Override]>,
     filter_length: Option<u64>,
 }
 
@@ -131,7 +132,7 @@ impl StudyArgs {
     /// Repeats, counts and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario_or("bench")?;
-        let wish = Wish { method: self.method.into(), false_alarm_rate: self.false_alarms };
+        let wish = Wish { rule: self.rule.into(), false_alarm_rate: self.false_alarms };
         if !(wish.false_alarm_rate > 0.0 && wish.false_alarm_rate < 1.0) {
             let line = format!("--false-alarms {}: a share above 0 and below 1 is expected", self.false_alarms);
             return Err(Failure::Input(line));
@@ -162,22 +163,22 @@ impl StudyArgs {
         if partial {
             let progress = study.progress();
             let line =
-                format!("interrupted after {} of {} runs; what is written is partial", progress.done, progress.of);
+                format!("interrupted after {} of {} runs; the results written are partial", progress.done, progress.of);
             return Err(Failure::Interrupted(line));
         }
         Ok(())
     }
 
     fn spec(&self, scenario: &Scenario) -> Result<Spec, Failure> {
-        let (mut xi2, mut xi1) = (None, None);
-        let mut others = Vec::new();
+        let mut levels = Levels::default();
+        let (mut others, mut seen) = (Vec::new(), Vec::new());
         let rule = scenario.detection.xi1_rule;
         for text in &self.sweeps {
             let refused = |error: SweepError| Failure::Input(format!("--sweep {text}: {error}"));
             let sweep: Sweep = text.parse().map_err(refused)?;
-            let levels = match (sweep.key.as_str(), rule) {
-                ("detection.xi2", _) => &mut xi2,
-                ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => &mut xi1,
+            let detector = match (sweep.key.as_str(), rule) {
+                ("detection.xi2", _) => Method::Fcd,
+                ("detection.xi1", Xi1Rule::Constant) | ("detection.xi1_factor", Xi1Rule::Bound) => Method::Jfd,
                 ("detection.xi1" | "detection.xi1_factor", _) => {
                     let other = if rule == Xi1Rule::Constant { "detection.xi1" } else { "detection.xi1_factor" };
                     let line = format!("--sweep {text}: this detection.xi1_rule does not use it; sweep {other}");
@@ -188,27 +189,28 @@ impl StudyArgs {
                     continue;
                 }
             };
-            if levels.is_some() {
+            if seen.contains(&detector) {
                 return Err(refused(SweepError::Twice(sweep.key)));
             }
-            *levels = Some(sweep.levels().map_err(refused)?);
+            seen.push(detector);
+            levels.put(detector, sweep.levels().map_err(refused)?);
         }
         let cells = combinations(&others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
-        Ok(Spec { scenario: scenario.clone(), repeats: self.repeats, late: self.late, cells, xi2, xi1 })
+        Ok(Spec { late: self.late, cells, levels, ..Spec::of(scenario.clone(), self.repeats) })
     }
 }
 
 fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool) -> Report<'a> {
     let cells = study.cells().iter().enumerate().map(|(k, cell)| {
         let (runs_free, runs_contact) = study.repeats(k);
-        let own = |method| study.own(k, method).map(|level| study.point(k, method, level));
+        let own = |rule| study.own(k, rule).map(|level| study.point(k, rule, level));
         CellReport {
             set: &cell.set,
             runs_free,
             runs_contact,
             contact_time: study.contact_time(k),
-            own: ByMethod::of(own),
-            curves: ByMethod::of(|method| thinned(study.curve(k, method))),
+            own: ByRule::of(own),
+            curves: ByRule::of(|rule| thinned(study.curve(k, rule))),
             advised: recommend_among(study, [k], &wish),
         }
     });
@@ -234,7 +236,7 @@ fn report<'a>(study: &'a Study, wish: Wish, verdict: &'a Verdict, partial: bool)
 /// Whether the cells differ in nothing but what can be tuned: filter and detection.
 fn is_tuned(study: &Study) -> bool {
     let mut sets = study.cells().iter().flat_map(|cell| &cell.set);
-    sets.all(|set| set.starts_with("filter.") || set.starts_with("detection."))
+    sets.all(|set| set.path().starts_with("filter.") || set.path().starts_with("detection."))
 }
 
 /// Without the points between two that say the same.

@@ -1,10 +1,13 @@
 //! `centrode table2`: the paper's Table II beside a simulated one.
 
 use super::ScenarioArgs;
-use super::output::{Failure, NewFile, cell, finish_csv, json, write_record};
+use super::draw::{self, Format};
+use super::output::{Failure, NewFile, finish_csv, json, write_record};
+use centrode_core::chart::csv::cell;
 use centrode_core::scenario::Scenario;
 use centrode_core::study::Job;
-use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Statistic, Table2, Table2Job, paper_rows};
+use centrode_core::study::table2::chart::with_words;
+use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -25,6 +28,9 @@ pub struct Table2Args {
     /// Write both tables to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Draw every estimate against the true place to a file, .svg or .png.
+    #[arg(long, value_name = "FILE.{svg,png}")]
+    svg: Option<PathBuf>,
 }
 
 #[derive(Serialize)]
@@ -47,10 +53,16 @@ impl Table2Args {
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario_or("bench")?;
         let mut job = Table2Job::new(&scenario, self.repeats).map_err(|error| Failure::Input(error.to_string()))?;
+        let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
         // A file that cannot be written is said before the work, not after it.
         let file = self.csv.as_deref().map(NewFile::create).transpose()?;
+        let drawing = self.svg.as_deref().map(NewFile::create).transpose()?;
         job.finish();
         let table = job.table();
+        if let (Some(mut file), Some(format)) = (drawing, format) {
+            draw::write(&mut file, &with_words(&table, job.rows(), (&scenario, self.repeats)), format)?;
+            file.finish()?;
+        }
         if let Some(file) = file {
             csv(file, &table)?;
         }
@@ -70,7 +82,7 @@ struct Quantity {
     label: &'static str,
     scale: f64,
     digits: usize,
-    of: fn(&Disk) -> Statistic,
+    of: fn(&Disk) -> Spread,
 }
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -165,7 +177,7 @@ fn number(value: f64, digits: usize) -> String {
     if value.is_nan() { "–".into() } else { format!("{value:.digits$}") }
 }
 
-fn plus_minus(statistic: Statistic, scale: f64, digits: usize) -> String {
+fn plus_minus(statistic: Spread, scale: f64, digits: usize) -> String {
     let mean = number(statistic.mean * scale, digits);
     if statistic.deviation.is_nan() {
         mean

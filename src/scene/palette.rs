@@ -21,6 +21,8 @@ pub struct Palette {
     pub force: Color,
     /// A detection.
     pub detection: Color,
+    /// What a person can touch, and what he chose: no signal has it.
+    pub choice: Color,
     /// Backbones.
     pub steel: Color,
     /// The primary backbone, a shade apart from the others.
@@ -54,6 +56,7 @@ impl Palette {
         sensor: Color::hex(0x009E73),
         force: Color::hex(0xA94A82),
         detection: Color::hex(0xD55E00),
+        choice: Color::hex(0x5A47D1),
         steel: Color::hex(0xD5DBE2),
         steel_primary: Color::hex(0xF0F2F5),
         disk: Color::hex(0xAEBBC8),
@@ -75,6 +78,7 @@ impl Palette {
         sensor: Color::hex(0x2BC495),
         force: Color::hex(0xE295C1),
         detection: Color::hex(0xFF7F3A),
+        choice: Color::hex(0xA394FF),
         steel: Color::hex(0xD3DAE2),
         steel_primary: Color::hex(0xF0F3F6),
         disk: Color::hex(0x93A6B8),

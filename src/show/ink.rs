@@ -6,9 +6,6 @@ use crate::scene::palette::Palette;
 use centrode_core::chart::Role;
 use centrode_core::chart::layout::Ink;
 
-/// What a person chose: the interface's accent, which no signal uses.
-const CHOICE: [Color; 2] = [Color::hex(0x5A47D1), Color::hex(0xA394FF)];
-
 /// The colour of an ink on a light or a dark ground.
 #[must_use]
 pub fn color(ink: Ink, palette: &Palette, dark: bool) -> Color {
@@ -34,7 +31,7 @@ fn of_role(role: Role, palette: &Palette, dark: bool) -> Color {
         Role::Robot | Role::Aside => palette.ink_dim,
         Role::Detection => palette.detection,
         Role::Contact => palette.stone,
-        Role::Choice => CHOICE[usize::from(dark)],
+        Role::Choice => palette.choice,
         Role::Member(share) => member(share, dark),
     }
 }

@@ -1,7 +1,7 @@
 //! Studies in a Web Worker: both ends.
 //!
 //! The worker loads this same module and drives a [`StudyWorker`]; the page's end is a [`Helper`] that hands requests to
-//! the page (`web/loader.js`) and keeps what comes back until the next frame.
+//! the page (`web/studies.js`) and keeps what comes back until the next frame.
 
 use super::with_hooks;
 use crate::app::stages::tuner::Helper;

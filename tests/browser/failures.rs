@@ -103,7 +103,7 @@ fn a_lost_context_offers_to_reload() {
         "document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()",
     );
     let text = wait_for(&mut page, "failed");
-    assert!(text.contains("taken away"), "{text}");
+    assert!(text.contains("lost its graphics"), "{text}");
 }
 
 #[test]

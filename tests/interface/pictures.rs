@@ -6,7 +6,7 @@ use crate::stages::show;
 use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paused, slide};
 use crate::tuning::tune;
 use egui::Theme::{Dark, Light};
-use egui::Vec2;
+use egui::{Vec2, vec2};
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use egui_kittest::{Harness, SnapshotOptions};
 use egui_wgpu::RendererOptions;
@@ -57,6 +57,11 @@ fn robot_before_detection() {
 #[test]
 fn robot_after_detection() {
     compare(&mut page(DESK, Light, 7.0), "robot-detected-desk-light");
+}
+
+#[test]
+fn robot_on_a_small_desk() {
+    compare(&mut page(vec2(1280.0, 720.0), Light, 7.0), "robot-detected-small-desk-light");
 }
 
 #[test]

@@ -2,9 +2,15 @@
 
 use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, page_of, texts};
 use centrode::app::stages::stage::{Section, Stage};
-use centrode_core::scenario::{Place, Start};
+use centrode::app::stages::studies::Studies;
+use centrode::app::stages::tuner::Tuner;
+use centrode::app::stages::{Inputs, StageState, stage};
+use centrode::app::state::Tuning;
+use centrode_core::run::simulate;
+use centrode_core::scenario::{Place, Scenario, Start};
 use egui::accesskit::Role;
 use egui::{Key, pos2, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
 /// High enough that no group of controls is scrolled out of sight.
@@ -186,6 +192,47 @@ fn odd_scenarios_are_shown_or_refused_in_words() {
         slide(&mut page, "θL at the end", 90.0);
         let said = [stage.summary(), "Simulated by Centrode, disk", "cannot be shown"].map(|part| texts(&page, part));
         assert!(said.iter().any(|labels| !labels.is_empty()), "{stage:?} shows nothing and says nothing");
+    }
+}
+
+/// What is said in the place of a stage that this scenario, which no control sets, makes impossible.
+fn refused(shown: Stage, scenario: Scenario) -> String {
+    let run = simulate(&Scenario::default()).expect("a run");
+    let (mut studies, mut tuner, mut state) = (Studies::default(), Tuner::new(None), StageState::default());
+    let tuning = shown == Stage::Tuning;
+    let page = Harness::builder().with_size(DESK).build_ui(move |ui| {
+        centrode::app::theme::install(ui.ctx());
+        tuner.update(tuning.then_some(&scenario), 5, false);
+        studies.update(shown, &scenario);
+        let (base, tuner) = (("paper", &scenario), &tuner);
+        let inputs = Inputs { stage: shown, run: &run, base, source: None, tuner, tuning: Tuning::default() };
+        stage(ui, ui.max_rect(), &inputs, &mut studies, &mut state, &mut Vec::new());
+    });
+    let said = |node: egui_kittest::Node<'_>| node.accesskit_node().label().or_else(|| node.accesskit_node().value());
+    page.query_all_by_label_contains("cannot be shown").filter_map(said).collect()
+}
+
+#[test]
+fn what_cannot_be_shown_is_refused_in_the_units_of_the_page() {
+    let with = |change: fn(&mut Scenario)| {
+        let mut scenario = Scenario::default();
+        change(&mut scenario);
+        scenario
+    };
+    let disks = with(|scenario| (scenario.contact.place, scenario.robot.disks) = (Place::disk(1), vec![0.01, 0.02]));
+    let said = "Table II cannot be shown: robot.disks = [10 mm, 20 mm] is not allowed: at least three disks";
+    let refusal = refused(Stage::Table2, disks);
+    assert!(refusal.starts_with(said), "{refusal}");
+    let short = with(|scenario| scenario.robot.length = 0.02);
+    let bent = with(|scenario| scenario.contact.start = Start::Bend(7.0));
+    for shown in Stage::ALL.into_iter().filter(|stage| *stage != Stage::Robot) {
+        let said = format!("{} cannot be shown: robot.disks[2] = 22.5 mm is not allowed: ", shown.name());
+        let refusal = refused(shown, short.clone());
+        assert!(refusal.starts_with(&said) && refusal.contains("robot.length = 20 mm"), "{refusal}");
+        let said = format!("{} cannot be shown: Contact bend 401.07°: ", shown.name());
+        let refusal = refused(shown, bent.clone());
+        let own = matches!(shown, Stage::Table2 | Stage::Map);
+        assert!(own || refusal.starts_with(&said), "{refusal}");
     }
 }
 

@@ -30,6 +30,10 @@ fn xi2(page: &Page) -> Option<f64> {
     app(page).state().scenario.detection.xi2.value()
 }
 
+fn xi1(page: &Page) -> Option<f64> {
+    app(page).state().scenario.detection.xi1.value()
+}
+
 #[test]
 fn it_says_what_the_thresholds_achieve_and_which_to_take() {
     let mut page = page_of(DESK);
@@ -141,7 +145,7 @@ fn methods_wishes_and_runs_can_be_chosen_and_the_study_stopped() {
         page.run_steps(2);
         assert!(!said(&page, part).is_empty(), "{option}: {part}");
     }
-    assert_eq!(app(&page).state().tuning.method, Rule::Or);
+    assert_eq!(app(&page).state().tuning.rule, Rule::Or);
 }
 
 #[test]
@@ -169,6 +173,47 @@ fn without_a_contact_there_is_nothing_to_advise() {
     slide(&mut page, "Contact disk", 0.0);
     finish(&mut page);
     assert!(!said(&page, "There is no contact to detect").is_empty());
-    assert!(!said(&page, "Set a contact to be advised").is_empty());
+    assert!(!said(&page, "Set a contact to get a recommendation").is_empty());
     assert!(page.query_by_role_and_label(Role::Button, "Take it").is_none());
+}
+
+#[test]
+fn a_drag_of_xi1_begins_no_study_and_what_does_not_look_at_it_is_kept() {
+    let mut page = page_of(DESK);
+    finish(&mut page);
+    page.get_by_role_and_label(Role::RadioButton, "Either").click();
+    page.run_steps(2);
+    assert!(said(&page, "Now, ").contains("ξ1 = 30.0"), "{}", said(&page, "Now, "));
+    let begun = |page: &Page| app(page).tuner().begun();
+    let (before, first) = (begun(&page), xi1(&page));
+    let rail = crate::support::slider(&page, "ξ1 (joint force)").rect();
+    page.drag_at(rail.lerp_inside(vec2(0.3, 0.5)));
+    for k in 0..40 {
+        page.hover_at(rail.lerp_inside(vec2(0.3 + 0.01 * k as f32, 0.5)));
+        page.run_steps(1);
+        assert_eq!((begun(&page), app(&page).is_working()), (before, false), "position {k}");
+    }
+    let dragged = xi1(&page).expect("on");
+    assert_ne!(Some(dragged), first);
+    let now = said(&page, "Now, ");
+    assert!(now.contains(&format!("ξ1 = {:.1}", dragged * 1e3)) && now.contains("counted with ξ1 = 30.0"), "{now}");
+    page.drop_at(rail.lerp_inside(vec2(0.69, 0.5)));
+    page.run_steps(1);
+    assert_eq!(begun(&page), before + 1, "let go, what looks at it is counted anew");
+    // What looks at it stands as it was until enough of the new is known.
+    let now = said(&page, "Now, ");
+    assert!(now.contains("of 100 runs") && now.contains("counted with"), "{now}");
+    for option in ["Centrode", "Forces"] {
+        page.get_by_role_and_label(Role::RadioButton, option).click();
+        page.run_steps(2);
+        let now = said(&page, "Now, ");
+        assert!(now.contains("of 100 runs") && !now.contains("counted with"), "{option}: {now}");
+    }
+    assert!(app(&page).is_working(), "the others are still being counted");
+    page.get_by_role_and_label(Role::RadioButton, "Either").click();
+    page.run_steps(2);
+    finish(&mut page);
+    let now = said(&page, "Now, ");
+    assert!(!now.contains("counted with") && now.contains("of 100 runs"), "{now}");
+    assert_eq!(begun(&page), before + 1);
 }

@@ -4,6 +4,7 @@ use centrode::app::charts::plane::plane;
 use centrode::app::charts::plots::{PlotState, plots};
 use centrode::app::command::Command;
 use centrode::show::track::Trace;
+use centrode_core::detect::Method;
 use centrode_core::run::{Run, simulate};
 use centrode_core::scenario::Threshold;
 use centrode_core::scenario::{Scenario, preset};
@@ -15,6 +16,8 @@ use egui_kittest::kittest::Queryable;
 struct Page {
     scenario: Scenario,
     run: Run,
+    /// Counts the runs.
+    version: u64,
     cursor: f64,
     state: PlotState,
     log: Vec<Command>,
@@ -25,10 +28,10 @@ impl Page {
         let scenario = preset::find(name).and_then(preset::Preset::scenario).expect("preset");
         let run = simulate(&scenario).expect("run");
         // The page remembers what a threshold was before it was switched off.
-        let otherwise = [scenario.detection.xi2, scenario.detection.xi1].map(|set| set.value().unwrap_or(0.0));
+        let thresholds = [(Method::Fcd, scenario.detection.xi2), (Method::Jfd, scenario.detection.xi1)];
         let mut state = PlotState::default();
-        state.otherwise = otherwise;
-        Self { scenario, run, cursor, state, log: Vec::new() }
+        state.otherwise = thresholds.map(|(method, set)| (method, set.value().unwrap_or(0.0))).into();
+        Self { scenario, run, version: 0, cursor, state, log: Vec::new() }
     }
 
     fn apply(&mut self, commands: Vec<Command>) {
@@ -42,6 +45,7 @@ impl Page {
                 _ => {}
             }
             self.run = simulate(&self.scenario).expect("what the views ask for can be run");
+            self.version += 1;
             self.log.push(command);
         }
     }
@@ -57,7 +61,7 @@ impl Page {
                     plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out)
                 });
                 ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
-                    plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
+                    plots(ui, (&self.run, self.version), self.cursor, &mut self.state, &mut out);
                 });
             });
         } else {
@@ -65,7 +69,7 @@ impl Page {
             ui.allocate_ui(vec2(width, 380.0), |ui| {
                 plane(ui, &self.run, &Trace::new(&self.run), self.cursor, &mut out)
             });
-            plots(ui, &self.run, self.cursor, &mut self.state, &mut out);
+            plots(ui, (&self.run, self.version), self.cursor, &mut self.state, &mut out);
         }
         self.apply(out);
     }
@@ -290,11 +294,48 @@ fn plots_alone(name: &str, size: Vec2) -> Harness<'static, Page> {
         .build_ui_state(
             |ui, page: &mut Page| {
                 let mut out = Vec::new();
-                plots(ui, &page.run, page.cursor, &mut page.state, &mut out);
+                plots(ui, (&page.run, page.version), page.cursor, &mut page.state, &mut out);
                 page.apply(out);
             },
             Page::new(name, 6.9),
         );
     harness.run();
     harness
+}
+
+/// Texts that are painted and begin with `part`: where, and what of the screen they may be painted on.
+fn painted(page: &crate::support::Page, part: &str) -> Vec<(Rect, Rect)> {
+    fn all(shape: &egui::Shape, part: &str, clip: Rect, found: &mut Vec<(Rect, Rect)>) {
+        match shape {
+            egui::Shape::Vec(shapes) => shapes.iter().for_each(|shape| all(shape, part, clip, found)),
+            egui::Shape::Text(text) if text.galley.text().starts_with(part) => {
+                found.push((text.visual_bounding_rect(), clip));
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    page.output().shapes.iter().for_each(|shape| all(&shape.shape, part, shape.clip_rect, &mut found));
+    found
+}
+
+/// The smallest desk: its plots and its bending plane are low.
+#[test]
+fn labels_of_a_small_desk_are_apart_and_no_legend_is_cut() {
+    let mut page = crate::support::page_of(vec2(1280.0, 720.0));
+    crate::support::slide(&mut page, "Time", 7.0);
+    for armed_from in [5.0, 5.6, 5.9, 6.1] {
+        crate::support::slide(&mut page, "Armed from", armed_from);
+        let (armed, detected) = (painted(&page, "armed from"), painted(&page, "detected "));
+        let ([(armed, _)], [(detected, clip)]) = (&armed[..], &detected[..]) else {
+            panic!("armed from {armed_from} s: {armed:?} {detected:?}")
+        };
+        assert!(!armed.intersects(*detected), "armed from {armed_from} s: {armed} {detected}");
+        assert!(clip.contains_rect(*armed) && clip.contains_rect(*detected), "{armed} {detected} in {clip}");
+    }
+    for entry in ["cm model", "cc constrained", "cs sensor", "true shape", "if unconstrained", "beam", "estimate"] {
+        let found = painted(&page, entry);
+        let (text, clip) = found.iter().max_by(|a, b| a.0.left().total_cmp(&b.0.left())).expect("an entry");
+        assert!(text.left() > 960.0 && clip.contains_rect(*text), "{entry}: {text} in {clip}");
+    }
 }

@@ -49,6 +49,24 @@ fn picture(bytes: &[u8]) -> (u32, u32, f64) {
 }
 
 #[test]
+fn table_ii_is_drawn_with_every_estimate() {
+    let folder = folder("table2-svg");
+    let path = folder.join("estimates.svg");
+    let output = centrode(&["table2", "--repeats", "2", "--svg", path.to_str().expect("a path")]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let svg = fs::read_to_string(&path).expect("written");
+    fs::remove_dir_all(&folder).expect("removed");
+    for word in ["Disk 1", "Disk 3", ">true place of the disk<", "standard deviation", "2 repeats", "Distance"] {
+        assert!(svg.contains(word), "it lacks {word:?}");
+    }
+    // 15 rows of the paper, the experiments and 6 means, and what stands for them in the legend.
+    let marks = svg.matches("<circle ").count() + svg.matches("paint-order").count();
+    assert!(svg.contains("</svg>") && !svg.contains("NaN") && marks >= 15 + 2 + 6 + 3, "{marks}");
+    let output = centrode(&["table2", "--svg", "a.gif"]);
+    assert!(!output.status.success() && String::from_utf8_lossy(&output.stderr).contains("--svg a.gif"));
+}
+
+#[test]
 fn every_figure_is_written_as_a_drawing_and_as_numbers() {
     for number in Number::ALL {
         let (digit, chart) = (number.to_string(), figure(number));

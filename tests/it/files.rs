@@ -63,6 +63,21 @@ fn an_interrupt_leaves_no_part_of_a_file() {
 }
 
 #[test]
+fn a_hangup_ends_no_command_that_was_started_to_ignore_it() {
+    let folder = folder("hung-up");
+    let run = "trap '' HUP && exec \"$0\" run --set motion.end=2000 --csv x.csv";
+    let mut command = Command::new("sh");
+    command.args(["-c", run, env!("CARGO_BIN_EXE_centrode")]).current_dir(&folder);
+    let child = command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let output = interrupted(child, &folder, "-HUP", Duration::ZERO);
+    assert!(output.status.success(), "{}: {}", output.status, String::from_utf8_lossy(&output.stderr));
+    assert_eq!(names(&folder), ["x.csv"]);
+    let text = fs::read_to_string(folder.join("x.csv")).expect("a file");
+    assert_eq!(text.lines().count(), 1 + 2_000_001);
+    fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
 fn a_replaced_file_keeps_its_mode_and_a_new_one_has_the_usual() {
     let folder = folder("modes");
     let [replaced, new, link] = ["replaced.csv", "new.csv", "link.csv"].map(|name| folder.join(name));

@@ -1,5 +1,4 @@
-//! What is written from the table of keys is what stands in the repository: `UPDATE_SNAPSHOTS=1 cargo test --test it keys`
-//! writes it anew.
+//! What is written from the table of keys is what stands in the repository: `cargo xtask renew keys` writes it anew.
 
 use centrode_core::scenario::keys::{KEYS, document};
 use centrode_core::scenario::{Plan, Scenario};
@@ -12,7 +11,7 @@ fn current(path: &str, text: &str) {
         std::fs::write(&file, text).expect(path);
     }
     let stored = std::fs::read_to_string(&file).unwrap_or_default();
-    assert!(stored == text, "{path} is out of date: UPDATE_SNAPSHOTS=1 cargo test --test it keys");
+    assert!(stored == text, "{path} is out of date: cargo xtask renew keys");
 }
 
 #[test]

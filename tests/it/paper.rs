@@ -7,7 +7,7 @@ use centrode_core::scenario::{Place, Scenario, Start, Threshold};
 use centrode_core::study::Job;
 use centrode_core::study::figure::{FigureJob, Number};
 use centrode_core::study::seed::repeat_seed;
-use centrode_core::study::table2::{Statistic, Table2, Table2Job};
+use centrode_core::study::table2::{Spread, Table2, Table2Job};
 use std::f64::consts::FRAC_PI_2;
 
 fn preset(name: &str) -> Scenario {
@@ -94,7 +94,7 @@ fn the_residual_is_not_constant_over_the_bend() {
     let run = simulate(&scenario).expect("valid");
     let mean = |from: f64, to: f64| {
         let bends = run.samples().filter(|sample| (from..to).contains(&(FRAC_PI_2 - sample.theta_l).to_degrees()));
-        Statistic::of(bends.map(|sample| sample.judgement.residual).collect::<Vec<_>>().into_iter()).mean
+        Spread::of(bends.map(|sample| sample.judgement.residual).collect::<Vec<_>>().into_iter()).mean
     };
     let (straight, half, bent) = (mean(0.5, 5.0), mean(25.0, 35.0), mean(55.0, 61.0));
     assert!(half > 2.0 * straight && bent > 1.5 * half, "{straight}, {half}, {bent}");
@@ -109,7 +109,7 @@ fn the_deviation_is_steady_after_5_s_and_a_transient_before() {
     for run in repeats(&scenario, 5) {
         let early = deviations(&run, 3.0, 4.0).fold(0.0, f64::max);
         let steady = deviations(&run, 5.0, 7.0);
-        let (Statistic { mean, deviation }, most) = (Statistic::of(steady.clone()), steady.fold(0.0, f64::max));
+        let (Spread { mean, deviation }, most) = (Spread::of(steady.clone()), steady.fold(0.0, f64::max));
         assert!(early > 0.02, "the transient reaches only {early} m");
         assert!(mean < 0.0015 && deviation < 0.0005 && most < 0.0035, "{mean} ± {deviation}, at most {most}");
     }
@@ -126,7 +126,7 @@ fn contact_nearer_the_tip_is_detected_sooner() {
         let delays = repeats(&scenario, 5).into_iter().map(|run| {
             run.detection().map(|detection| detection.time).expect("detected") - run.contact_time().expect("contact")
         });
-        Statistic::of(delays.collect::<Vec<_>>().into_iter()).mean
+        Spread::of(delays.collect::<Vec<_>>().into_iter()).mean
     };
     for (xi2, places) in [(0.007, vec![0.015, 0.018, 0.0225, 0.026]), (0.003, vec![0.0075, 0.015, 0.0225])] {
         let delays: Vec<f64> = places.iter().map(|&place| delay(place, xi2)).collect();

@@ -10,8 +10,8 @@ use std::process::{Command, Stdio};
 
 fn library(repeats: usize, cells: &[&[&str]]) -> Study {
     let scenario = find("bench").and_then(|preset| preset.scenario()).expect("bench");
-    let cells = cells.iter().map(|cell| cell.iter().map(ToString::to_string).collect()).collect();
-    let mut study = Study::new(Spec { scenario, repeats, late: 1.0, cells, xi2: None, xi1: None }).expect("a study");
+    let cells = cells.iter().map(|cell| cell.iter().map(|set| set.parse().expect(set)).collect()).collect();
+    let mut study = Study::new(Spec { cells, ..Spec::of(scenario, repeats) }).expect("a study");
     study.finish();
     study
 }
@@ -22,15 +22,15 @@ fn json_holds_the_library_s_study() {
     let theirs = library(9, &[&["filter.length=300"], &["filter.length=600"]]);
     assert_eq!(ours["partial"], false);
     for cell in 0..2 {
-        for method in Rule::ALL {
-            let point = theirs.own(cell, method).map(|level| theirs.point(cell, method, level));
+        for &rule in Rule::ALL {
+            let point = theirs.own(cell, rule).map(|level| theirs.point(cell, rule, level));
             let expected = serde_json::to_value(point).expect("JSON");
-            assert_eq!(ours["cells"][cell]["own"][method.name()], expected, "{cell} {method:?}");
-            let curve = ours["cells"][cell]["curves"][method.name()].as_array().expect("a curve").clone();
-            let full = serde_json::to_value(theirs.curve(cell, method)).expect("JSON");
+            assert_eq!(ours["cells"][cell]["own"][rule.name()], expected, "{cell} {rule:?}");
+            let curve = ours["cells"][cell]["curves"][rule.name()].as_array().expect("a curve").clone();
+            let full = serde_json::to_value(theirs.curve(cell, rule)).expect("JSON");
             let full = full.as_array().expect("a list");
             // What is left out lies between two points that say the same.
-            assert!(curve.len() < full.len() && curve.iter().all(|point| full.contains(point)), "{method:?}");
+            assert!(curve.len() < full.len() && curve.iter().all(|point| full.contains(point)), "{rule:?}");
             assert_eq!((curve.first(), curve.last()), (full.first(), full.last()));
         }
         assert_eq!(ours["cells"][cell]["contact_time"].as_f64(), theirs.contact_time(cell));
@@ -70,8 +70,8 @@ fn csv_has_every_threshold_and_the_drawing_its_curves() {
     let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     assert_eq!(rows[0][..3], ["filter.length", "method", "threshold [SI]"]);
     assert!(rows.iter().all(|row| row.len() == rows[0].len()));
-    let levels = |length: &str, method: &str| {
-        let of = |row: &&Vec<&str>| row[0] == length && row[1] == method;
+    let levels = |length: &str, rule: &str| {
+        let of = |row: &&Vec<&str>| row[0] == length && row[1] == rule;
         rows.iter().filter(of).map(|row| row[2].parse().expect("a number")).collect::<Vec<f64>>()
     };
     // Those that were asked for, and the scenario's own.

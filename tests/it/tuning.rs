@@ -20,20 +20,20 @@ fn noisy(sets: &[&str]) -> Scenario {
 }
 
 fn study(scenario: &Scenario, repeats: usize, cells: &[&[&str]]) -> Study {
-    let cells = cells.iter().map(|cell| cell.iter().map(ToString::to_string).collect()).collect();
-    let spec = Spec { scenario: scenario.clone(), repeats, late: 1.0, cells, xi2: None, xi1: None };
+    let cells = cells.iter().map(|cell| cell.iter().map(|set| set.parse().expect(set)).collect()).collect();
+    let spec = Spec { cells, ..Spec::of(scenario.clone(), repeats) };
     Study::new(spec).expect("a study")
 }
 
-/// The sample of a run's first alarm, from what the run itself reports: for one method or either of them its crossings, for
+/// The sample of a run's first alarm, from what the run itself reports: for one rule or either of them its crossings, for
 /// both the samples at which both values lie above their thresholds.
-fn first_alarm(scenario: &Scenario, method: Rule) -> u32 {
+fn first_alarm(scenario: &Scenario, rule: Rule) -> u32 {
     let run = simulate(scenario).expect("valid");
     let sample = |time: f64| run.samples().position(|sample| sample.time == time).expect("a sample") as u32;
     let crossed = |lamp: Lamp| {
         run.crossings().iter().find(|crossing| crossing.method == lamp).map_or(NEVER, |crossing| sample(crossing.time))
     };
-    match method {
+    match rule {
         Rule::Fcd => crossed(Lamp::Fcd),
         Rule::Jfd => crossed(Lamp::Jfd),
         Rule::Or => crossed(Lamp::Fcd).min(crossed(Lamp::Jfd)),
@@ -82,22 +82,22 @@ fn one_pass_gives_what_a_run_with_each_threshold_gives() {
         let firsts = study.run((batch, repeat));
         let levels = study.batches()[batch].levels.clone();
         let seed = repeat_seed(base.seed, repeat);
-        for method in Rule::ALL {
-            let values = method.levels(&levels);
+        for &rule in Rule::ALL {
+            let values = rule.levels(&levels);
             // The smallest, the largest, and some between.
             for level in (0..values.len()).step_by(17).chain([values.len() - 1]) {
                 let mut scenario = Scenario { seed, ..base.clone() };
-                match (method, scenario.detection.xi1_rule) {
+                match (rule, scenario.detection.xi1_rule) {
                     (Rule::Jfd, Xi1Rule::Constant) => scenario.detection.xi1 = Threshold::On(values[level]),
                     (Rule::Jfd, Xi1Rule::Bound) => scenario.detection.xi1_factor = values[level],
                     _ => scenario.detection.xi2 = Threshold::On(values[level]),
                 }
-                if method == Rule::Jfd && base.detection.xi1 == Threshold::OFF {
+                if rule == Rule::Jfd && base.detection.xi1 == Threshold::OFF {
                     continue;
                 }
-                let expected = first_alarm(&scenario, method);
-                let found = firsts[method as usize][level];
-                assert_eq!(found, expected, "{sets:?} {method:?} at {}", values[level]);
+                let expected = first_alarm(&scenario, rule);
+                let found = firsts.alarms[rule as usize][level];
+                assert_eq!(found, expected, "{sets:?} {rule:?} at {}", values[level]);
             }
         }
     }
@@ -109,10 +109,10 @@ fn the_first_alarm_is_the_first_crossing_of_the_run() {
     let study = study(&base, 1, &[&[]]);
     let run = simulate(&base).expect("valid");
     let firsts = study.run((study.cells()[0].held.expect("contact"), 0));
-    for (lamp, method) in [(Lamp::Fcd, Rule::Fcd), (Lamp::Jfd, Rule::Jfd)] {
-        let level = study.own(0, method).expect("its own threshold");
+    for (lamp, rule) in [(Lamp::Fcd, Rule::Fcd), (Lamp::Jfd, Rule::Jfd)] {
+        let level = study.own(0, rule).expect("its own threshold");
         let crossing = run.crossings().iter().find(|crossing| crossing.method == lamp).expect("an alarm");
-        assert_eq!(run.plan.time(firsts[method as usize][level] as usize), crossing.time);
+        assert_eq!(run.plan.time(firsts.alarms[rule as usize][level] as usize), crossing.time);
     }
 }
 
@@ -160,16 +160,16 @@ fn without_noise_the_study_is_the_run() {
 fn higher_thresholds_are_quieter_and_later() {
     let mut study = study(&noisy(&[]), 20, &[&[]]);
     study.finish();
-    for method in Rule::ALL {
-        for pair in study.curve(0, method).windows(2) {
-            assert!(pair[0].false_alarms.rate.count >= pair[1].false_alarms.rate.count, "{method:?}");
+    for &rule in Rule::ALL {
+        for pair in study.curve(0, rule).windows(2) {
+            assert!(pair[0].false_alarms.rate.count >= pair[1].false_alarms.rate.count, "{rule:?}");
             let [low, high] = [&pair[0], &pair[1]].map(|point| point.detection.expect("contact"));
-            assert!(low.early.count >= high.early.count, "{method:?}");
+            assert!(low.early.count >= high.early.count, "{rule:?}");
         }
     }
     // Either alarms whenever one does; both, only when each does.
     let own = study.own(0, Rule::Fcd).expect("on");
-    let alarms = |method, level| study.point(0, method, level).false_alarms.rate.count;
+    let alarms = |rule, level| study.point(0, rule, level).false_alarms.rate.count;
     let jfd = alarms(Rule::Jfd, study.own(0, Rule::Jfd).expect("on"));
     assert!(alarms(Rule::Or, own) >= alarms(Rule::Fcd, own).max(jfd));
     assert!(alarms(Rule::And, own) <= alarms(Rule::Fcd, own).min(jfd));
@@ -181,7 +181,7 @@ fn a_recommendation_keeps_the_wish_and_is_the_soonest() {
     let cells: Vec<&[&str]> = lengths.iter().map(|cell| &cell[..]).collect();
     let mut study = study(&noisy(&[]), 80, &cells);
     study.finish();
-    let wish = Wish { method: Rule::Fcd, false_alarm_rate: 0.1 };
+    let wish = Wish { rule: Rule::Fcd, false_alarm_rate: 0.1 };
     let Verdict::Take { cell, level, point } = recommend(&study, &wish) else { panic!("none") };
     assert_eq!(*point, study.point(cell, Rule::Fcd, level));
     assert!(point.false_alarms.rate.high <= 0.1);
@@ -200,7 +200,7 @@ fn a_recommendation_keeps_the_wish_and_is_the_soonest() {
 
 #[test]
 fn what_cannot_be_had_is_said() {
-    let wish = Wish { method: Rule::Fcd, false_alarm_rate: 0.2 };
+    let wish = Wish { rule: Rule::Fcd, false_alarm_rate: 0.2 };
     let verdict = |sets: &[&str], late: f64| {
         let mut study = study(&noisy(sets), 20, &[&[]]);
         study = Study::new(Spec { late, ..study.spec().clone() }).expect("a study");
@@ -220,7 +220,7 @@ fn impossible_specs_are_refused() {
     let told = |spec: Spec| Study::new(spec).expect_err("refused").to_string();
     assert!(told(Spec { repeats: 0, ..spec.clone() }).contains("repeats = 0"));
     assert!(told(Spec { late: f64::NAN, ..spec.clone() }).contains("late = NaN"));
-    let cells = vec![vec!["contact.disk=9".to_string()]];
+    let cells = vec![vec!["contact.disk=9".parse().expect("a disk")]];
     assert!(told(Spec { cells, ..spec.clone() }).contains("contact.disk = 9"));
     let mut scenario = Scenario::default();
     scenario.contact.place = Place::disk(7);

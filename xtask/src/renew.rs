@@ -10,6 +10,8 @@ use clap::ValueEnum;
 pub enum Stored {
     /// The pictures of the page in tests/snapshots: look at each one before it is committed
     Pictures,
+    /// The commented default scenario and the reference of keys, written from the table of keys
+    Keys,
     /// The hashes of everything computed in tests/data/fingerprints.json: only when numbers were meant to change
     Fingerprints,
 }
@@ -19,6 +21,7 @@ impl Stored {
     fn test(self) -> [&'static str; 3] {
         match self {
             Self::Pictures => ["interface", "pictures::", "UPDATE_SNAPSHOTS"],
+            Self::Keys => ["it", "keys::", "UPDATE_SNAPSHOTS"],
             Self::Fingerprints => ["it", "fingerprints::", "UPDATE_FINGERPRINTS"],
         }
     }

@@ -1,7 +1,7 @@
 //! What of a line lies within a rectangle.
 
 /// A place on the page, points: x to the right and y down.
-pub type Point = [f64; 2];
+pub type Spot = [f64; 2];
 
 /// A rectangle of the page, points.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,24 +34,24 @@ impl Rect {
 
     /// Its middle.
     #[must_use]
-    pub fn center(&self) -> Point {
+    pub fn center(&self) -> Spot {
         [0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom)]
     }
 
     /// Whether a point lies inside, or a hair outside.
     #[must_use]
-    pub fn holds(&self, [x, y]: Point) -> bool {
+    pub fn holds(&self, [x, y]: Spot) -> bool {
         (self.left - SLACK..=self.right + SLACK).contains(&x) && (self.top - SLACK..=self.bottom + SLACK).contains(&y)
     }
 
     /// The nearest point inside.
     #[must_use]
-    pub fn nearest(&self, [x, y]: Point) -> Point {
+    pub fn nearest(&self, [x, y]: Spot) -> Spot {
         [x.max(self.left).min(self.right), y.max(self.top).min(self.bottom)]
     }
 
     /// The part of a stretch between two points that lies inside (Liang and Barsky).
-    fn clipped(&self, a: Point, b: Point) -> Option<[Point; 2]> {
+    fn clipped(&self, a: Spot, b: Spot) -> Option<[Spot; 2]> {
         let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
         let (mut from, mut to) = (0.0f64, 1.0f64);
         let sides =
@@ -72,8 +72,8 @@ impl Rect {
 
     /// The parts of a line that lie inside.
     #[must_use]
-    pub fn inside(&self, line: &[Point]) -> Vec<Vec<Point>> {
-        let mut parts: Vec<Vec<Point>> = Vec::new();
+    pub fn inside(&self, line: &[Spot]) -> Vec<Vec<Spot>> {
+        let mut parts: Vec<Vec<Spot>> = Vec::new();
         for pair in line.windows(2) {
             let Some([a, b]) = self.clipped(pair[0], pair[1]) else { continue };
             match parts.last_mut() {
@@ -94,7 +94,7 @@ mod tests {
         let rect = Rect { left: 0.0, top: 0.0, right: 10.0, bottom: 10.0 };
         let parts = rect.inside(&[[-5.0, 5.0], [5.0, 5.0], [5.0, 20.0], [8.0, 20.0], [8.0, 5.0]]);
         assert_eq!(parts, vec![vec![[0.0, 5.0], [5.0, 5.0], [5.0, 10.0]], vec![[8.0, 10.0], [8.0, 5.0]]]);
-        assert_eq!(rect.inside(&[[-1.0, -1.0], [-5.0, 30.0]]), Vec::<Vec<Point>>::new());
+        assert_eq!(rect.inside(&[[-1.0, -1.0], [-5.0, 30.0]]), Vec::<Vec<Spot>>::new());
         assert_eq!(rect.nearest([-3.0, 4.0]), [0.0, 4.0]);
     }
 }

@@ -3,7 +3,8 @@
 use super::{Axis, Chart, Panel, Role};
 
 /// A number as it is read back; what is not defined stays empty.
-fn cell(value: f64) -> String {
+#[must_use]
+pub fn cell(value: f64) -> String {
     if value.is_nan() { String::new() } else { value.to_string() }
 }
 
@@ -18,9 +19,21 @@ fn row(text: &mut String, fields: &[&str]) {
     text.push('\n');
 }
 
-/// The numbers of the curves, marks, lines and spans, one row each: kind, place of the series, name, x, y. A gap is a row with
-/// an empty y; of what stands over the whole height y is empty, and of a span both ends have a row. A chart of several
+/// The numbers of the curves, marks, bars, intervals, lines and spans, one row each: kind, place of the series, name, x, y. A gap
+/// is a row with an empty y; of what stands over the whole height y is empty. A span has a row for both ends, a bar for two
+/// opposite corners, an interval for an end, its mark and the other end. A chart of several
 /// panels is written panel by panel, each with its own header.
+///
+/// ```
+/// use centrode_core::chart::csv::csv;
+/// use centrode_core::chart::{Axis, Chart, Panel, Role, Series, Style};
+///
+/// let mut panel = Panel::new(Axis::new("t", "s", "s", 1.0), Axis::new("Θ", "N·m", "mN·m", 1e3));
+/// panel.series.push(Series::new("measured", Role::Force, Style::Line, vec![[0.0, 0.002], [0.5, 0.003]]));
+/// let text = csv(&Chart { panels: vec![panel], ..Chart::default() });
+/// assert_eq!(text.lines().next(), Some("kind,series,name,t [s],Θ [N·m]"));
+/// assert_eq!(text.lines().last(), Some("line,0,measured,0.5,0.003"));
+/// ```
 #[must_use]
 pub fn csv(chart: &Chart) -> String {
     let mut text = String::new();
@@ -48,6 +61,13 @@ fn of_panel(text: &mut String, panel: &Panel) {
             row(text, &[series.style.name(), &k.to_string(), &series.name, &cell(*x), &cell(*y)]);
         }
     }
+    let bars = panel.bars.iter().map(|bars| ("bar", &bars.name, bars.corners.as_flattened()));
+    let intervals = panel.intervals.iter().map(|all| ("interval", &all.name, all.ends.as_flattened()));
+    for (kind, name, points) in bars.chain(intervals) {
+        for [x, y] in points {
+            row(text, &[kind, "", name, &cell(*x), &cell(*y)]);
+        }
+    }
     for vertical in &panel.verticals {
         let kind = match vertical.role {
             Role::Detection => "detection",
@@ -66,7 +86,7 @@ fn of_panel(text: &mut String, panel: &Panel) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Series, Span, Style, Vertical};
+    use crate::chart::{Bars, Intervals, Series, Span, Style, Vertical};
 
     #[test]
     fn what_is_not_defined_is_empty() {
@@ -79,11 +99,16 @@ mod tests {
         let mut panel = Panel::new(axis("t"), axis("y"));
         panel.series = vec![Series::new("a, \"b\"", Role::Model, Style::Line, vec![[0.5, 1e-9], [1.0, f64::NAN]])];
         panel.verticals = vec![Vertical { name: "detection", x: 2.0, role: Role::Detection }];
-        panel.spans = vec![Span { name: "not armed", ends: [0.0, 1.0] }];
+        panel.spans = vec![Span { name: "not armed", role: Role::Aside, low: false, ends: [0.0, 1.0] }];
+        panel.bars = vec![Bars { name: "found".into(), role: Role::Sensor, corners: vec![[[0.0, 1.0], [0.1, 0.5]]] }];
+        let ends = vec![[[f64::NAN; 2], [3.0, 2.0], [4.0, 2.0]]];
+        panel.intervals = vec![Intervals { name: "median".into(), role: Role::Sensor, ends }];
         let text = csv(&Chart { panels: vec![panel], ..Chart::default() });
         let lines: Vec<&str> = text.lines().collect();
         assert_eq!(lines[0], "kind,series,name,t [s],y [s]");
         assert_eq!(lines[1..3], ["line,0,\"a, \"\"b\"\"\",0.5,0.000000001", "line,0,\"a, \"\"b\"\"\",1,"]);
-        assert_eq!(lines[3..], ["detection,,detection,2,", "span,,not armed,0,", "span,,not armed,1,"]);
+        assert_eq!(lines[3..5], ["bar,,found,0,1", "bar,,found,0.1,0.5"]);
+        assert_eq!(lines[5..8], ["interval,,median,,", "interval,,median,3,2", "interval,,median,4,2"]);
+        assert_eq!(lines[8..], ["detection,,detection,2,", "span,,not armed,0,", "span,,not armed,1,"]);
     }
 }

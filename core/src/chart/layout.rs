@@ -7,11 +7,11 @@ mod axes;
 mod data;
 mod legend;
 
-use super::clip::{Point, Rect};
+use super::clip::{Rect, Spot};
 use super::font::{self, width};
 use super::notation::printed;
 use super::scale::Scale;
-use super::{Chart, Panel, Role};
+use super::{Chart, Panel, Role, Series};
 
 /// The page of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,6 +22,19 @@ pub struct Page {
     pub text: f64,
     /// Whether title and caption stand on it, with a margin around; the interface writes its own.
     pub words: bool,
+    /// Size of a pixel, points: of a curve with many more points than columns of pixels, each column keeps its extremes.
+    pub pixel: f64,
+    /// Room at the left and at the right of the data, points, for plots that stand in line with each other: they have no titles,
+    /// no legends, no names of axes and no frames, for who shows them writes his own.
+    pub sides: Option<[f64; 2]>,
+}
+
+impl Page {
+    /// A page without words of its own, for a screen.
+    #[must_use]
+    pub fn screen(size: [f64; 2], text: f64) -> Self {
+        Self { size, text, words: false, pixel: 1.0, sides: None }
+    }
 }
 
 /// A chart that has been laid out.
@@ -30,7 +43,7 @@ pub struct Drawing {
     /// Width and height, points.
     pub size: [f64; 2],
     /// What is drawn, back to front.
-    pub shapes: Vec<Shape>,
+    pub shapes: Vec<Item>,
     /// Where the panels' data lies, in their order.
     pub frames: Vec<Frame>,
 }
@@ -49,13 +62,13 @@ pub struct Frame {
 impl Frame {
     /// Where a point lies.
     #[must_use]
-    pub fn at(&self, [x, y]: [f64; 2]) -> Point {
+    pub fn at(&self, [x, y]: [f64; 2]) -> Spot {
         [self.x.at(x), self.y.at(y)]
     }
 
     /// The values at a place, within the ranges.
     #[must_use]
-    pub fn value(&self, [x, y]: Point) -> [f64; 2] {
+    pub fn value(&self, [x, y]: Spot) -> [f64; 2] {
         [self.x.value(x), self.y.value(y)]
     }
 }
@@ -107,6 +120,8 @@ pub enum Form {
     Dot,
     /// A circle that is not filled.
     Ring,
+    /// A filled diamond.
+    Diamond,
 }
 
 impl Form {
@@ -118,13 +133,18 @@ impl Form {
             Self::Circle => 0.5,
             Self::Dot => 0.35,
             Self::Ring => 0.25,
+            Self::Diamond => 0.3,
         }
     }
 
-    /// The corners of a triangle of a radius around a place.
+    /// The corners of a form of a radius around a place; none where it is round.
     #[must_use]
-    pub fn triangle(self, [x, y]: Point, r: f64) -> [Point; 3] {
-        [[x, y - r], [x + 0.87 * r, y + 0.6 * r], [x - 0.87 * r, y + 0.6 * r]]
+    pub fn corners(self, [x, y]: Spot, r: f64) -> Vec<Spot> {
+        match self {
+            Self::Triangle => vec![[x, y - r], [x + 0.87 * r, y + 0.6 * r], [x - 0.87 * r, y + 0.6 * r]],
+            Self::Diamond => vec![[x, y - r], [x + r, y], [x, y + r], [x - r, y]],
+            Self::Circle | Self::Dot | Self::Ring => Vec::new(),
+        }
     }
 }
 
@@ -145,7 +165,7 @@ pub struct Text {
     /// The text, in which `_x` is a subscript.
     pub text: String,
     /// Its place.
-    pub at: Point,
+    pub at: Spot,
     /// Its size, points.
     pub size: f64,
     /// Its colour.
@@ -160,17 +180,17 @@ pub struct Text {
 
 /// Something that is drawn.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Shape {
+pub enum Item {
     /// A filled rectangle.
     Fill(Rect, Paint),
     /// The map of the panel of this place in the chart.
     Map(Rect, usize),
     /// The area between two edges, point by point.
-    Band(Vec<[Point; 2]>, Paint),
+    Band(Vec<[Spot; 2]>, Paint),
     /// A line through points, its width, and the lengths of its dashes and of the gaps between them.
-    Line(Vec<Point>, Paint, f64, Option<[f64; 2]>),
+    Line(Vec<Spot>, Paint, f64, Option<[f64; 2]>),
     /// A mark at a place, its form and its radius; its edge parts it from what is behind it.
-    Mark(Point, Form, f64, Paint, Ink),
+    Mark(Spot, Form, f64, Paint, Ink),
     /// A text.
     Text(Text),
 }
@@ -182,32 +202,42 @@ pub fn layout(chart: &Chart, page: &Page) -> Drawing {
     let t = page.text;
     let mut space = Rect { left: 0.0, top: 0.0, right: page.size[0], bottom: page.size[1] };
     if page.words {
-        space = words(&mut drawing, chart, t, space);
+        space = words(&mut drawing, chart, page, space);
     }
     for (k, (panel, place)) in chart.panels.iter().zip(places(space, chart.panels.len(), t)).enumerate() {
-        let mut pen = Pen { drawing: &mut drawing, t, k };
+        let mut pen = Pen { drawing: &mut drawing, page, t, k };
         pen.panel(panel, place);
     }
     drawing
 }
 
+/// What moves over a panel that has been laid out: the shapes of a few series in its frame. `on_map` says whether a map is behind.
+#[must_use]
+pub fn over(frame: &Frame, series: &[Series], page: &Page, on_map: bool) -> Vec<Item> {
+    let mut drawing = Drawing { size: page.size, shapes: Vec::new(), frames: Vec::new() };
+    let mut pen = Pen { drawing: &mut drawing, page, t: page.text, k: 0 };
+    pen.all_series(series, frame, if on_map { Ink::White } else { Ink::Ground });
+    drawing.shapes
+}
+
 /// Title and caption; the space between them.
-fn words(drawing: &mut Drawing, chart: &Chart, t: f64, page: Rect) -> Rect {
+fn words(drawing: &mut Drawing, chart: &Chart, page: &Page, whole: Rect) -> Rect {
+    let t = page.text;
     let side = 2.7 * t;
-    let mut pen = Pen { drawing, t, k: 0 };
-    let (left, right) = (page.left + side, page.right - side);
+    let mut pen = Pen { drawing, page, t, k: 0 };
+    let (left, right) = (whole.left + side, whole.right - side);
     if !chart.title.is_empty() {
-        let at = [left, page.top + 2.6 * t];
+        let at = [left, whole.top + 2.6 * t];
         pen.text(&chart.title, at, Look { size: 1.4 * t, strong: true, ..Look::PLAIN });
     }
     let lines = font::lines(&printed(&chart.caption), 0.9 * t, right - left);
     let line = 1.27 * t;
-    let foot = page.bottom - 1.5 * t - line * lines.len() as f64;
+    let foot = whole.bottom - 1.5 * t - line * lines.len() as f64;
     for (k, text) in lines.iter().enumerate() {
         let at = [left, foot + line * (k as f64 + 0.5)];
         pen.text(text, at, Look { size: 0.9 * t, ink: Ink::Dim, ..Look::PLAIN });
     }
-    Rect { left, right, top: page.top + 4.2 * t, bottom: foot - 0.9 * t }
+    Rect { left, right, top: whole.top + 4.2 * t, bottom: foot - 0.9 * t }
 }
 
 /// Places of panels: side by side where there is the width, else above each other.
@@ -245,6 +275,7 @@ impl Look {
 /// Adds the shapes of one panel.
 struct Pen<'a> {
     drawing: &'a mut Drawing,
+    page: &'a Page,
     /// Size of the text.
     t: f64,
     /// Place of the panel in the chart.
@@ -252,26 +283,31 @@ struct Pen<'a> {
 }
 
 impl Pen<'_> {
-    fn add(&mut self, shape: Shape) {
+    fn add(&mut self, shape: Item) {
         self.drawing.shapes.push(shape);
     }
 
-    fn text(&mut self, text: &str, at: Point, look: Look) {
+    fn text(&mut self, text: &str, at: Spot, look: Look) {
         let size = if look.size > 0.0 { look.size } else { self.t };
         let Look { ink, align, strong, upright, .. } = look;
-        self.add(Shape::Text(Text { text: printed(text), at, size, ink, align, strong, upright }));
+        self.add(Item::Text(Text { text: printed(text), at, size, ink, align, strong, upright }));
     }
 
-    fn line(&mut self, points: &[Point], paint: impl Into<Paint>, wide: f64, dash: Option<[f64; 2]>) {
-        self.add(Shape::Line(points.to_vec(), paint.into(), wide, dash));
+    fn line(&mut self, points: &[Spot], paint: impl Into<Paint>, wide: f64, dash: Option<[f64; 2]>) {
+        self.add(Item::Line(points.to_vec(), paint.into(), wide, dash));
     }
 
     /// One panel in its place.
     fn panel(&mut self, panel: &Panel, place: Rect) {
         let (data, title) = self.divide(panel, place);
-        let frame = axes::frame(panel, data);
+        let aside = axes::spare(panel, &data);
+        let narrow = |rect: Rect| Rect { left: rect.left + aside, right: rect.right - aside, ..rect };
+        let frame = axes::frame(panel, narrow(data));
         self.drawing.frames.push(frame);
-        self.head(panel, place, &frame, title);
+        if self.page.sides.is_none() {
+            self.head(panel, place, &data, title);
+        }
+        let place = narrow(place);
         if let Some(map) = &panel.map {
             self.map(map, &frame);
         }
@@ -281,12 +317,19 @@ impl Pen<'_> {
             self.bar(map, &frame);
         }
         self.rungs(panel, &frame);
+        self.asides(panel, &frame);
     }
 
     /// The place of a panel's data, and whether title and note stand on one line.
     fn divide(&self, panel: &Panel, place: Rect) -> (Rect, bool) {
         let t = self.t;
-        let right = place.right - if panel.map.is_some() { self.bar_room(panel) } else { 0.9 * t };
+        if let Some([left, right]) = self.page.sides {
+            let bottom = place.bottom - if panel.x.bare { 0.5 * t } else { 1.7 * t };
+            let data = Rect { left: place.left + left, right: place.right - right, top: place.top, bottom };
+            return (data, true);
+        }
+        let beside = if panel.map.is_some() { self.bar_room(panel) } else { 0.9 * t };
+        let right = place.right - beside - self.aside_room(panel);
         let mut data = Rect { left: place.left, right, top: place.top, bottom: place.bottom - 3.2 * t };
         // Labels of the vertical axis need its height, which hardly depends on them.
         data.top = place.top + 0.7 * t;
@@ -312,9 +355,8 @@ impl Pen<'_> {
     }
 
     /// Title, note and legend above the data.
-    fn head(&mut self, panel: &Panel, place: Rect, frame: &Frame, one: bool) {
+    fn head(&mut self, panel: &Panel, place: Rect, data: &Rect, one: bool) {
         let t = self.t;
-        let data = frame.data;
         let mut y = place.top + 0.7 * t;
         if !panel.title.is_empty() {
             let look = Look { size: 1.07 * t, strong: true, ..Look::PLAIN };
@@ -333,5 +375,85 @@ impl Pen<'_> {
             y += 1.9 * t;
         }
         self.legend(panel, [data.left, y], place.right - data.left);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chart::{Aside, Axis, Bars, Intervals, Style};
+
+    fn axis(name: &'static str) -> Axis {
+        Axis::new(name, "m", "mm", 1e3)
+    }
+
+    fn of(panel: Panel, page: &Page) -> Drawing {
+        layout(&Chart { panels: vec![panel], ..Chart::default() }, page)
+    }
+
+    #[test]
+    fn one_scale_for_both_axes_leaves_no_empty_sides() {
+        let page = Page::screen([1000.0, 320.0], 11.0);
+        let points = vec![[0.0, 0.0], [0.02, 0.03]];
+        let series = vec![Series::new("", Role::Robot, Style::Line, points)];
+        let panel = Panel { equal_scales: true, series, ..Panel::new(axis("x"), axis("y")) };
+        let frame = of(panel, &page).frames[0];
+        assert!(frame.data.width() < 1.7 * frame.data.height(), "{:?}", frame.data);
+        let [x, y] = [frame.x, frame.y].map(|scale| scale.per_point());
+        assert!((x - y).abs() < 1e-9);
+        let [left, right] = [frame.data.left, page.size[0] - frame.data.right];
+        assert!((left - right).abs() < 80.0, "it stands in the middle: {left} {right}");
+    }
+
+    #[test]
+    fn a_curve_of_many_points_keeps_its_peak_and_few_points() {
+        let page = Page { sides: Some([38.0, 8.0]), ..Page::screen([346.0, 120.0], 10.5) };
+        let point = |k: i32| [f64::from(k) * 1e-3, if k == 5_432 { 0.9 } else { 0.1 }];
+        let series = vec![Series::new("", Role::Sensor, Style::Line, (0..=10_000).map(point).collect())];
+        let y = Axis { range: Some([0.0, 1.0]), ..axis("y") };
+        let x = Axis { range: Some([0.0, 10.0]), ..axis("x") };
+        let drawing = of(Panel { series, ..Panel::new(x, y) }, &page);
+        let frame = drawing.frames[0];
+        let curve = drawing.shapes.iter().find_map(|shape| match shape {
+            Item::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Sensor) => Some(points),
+            _ => None,
+        });
+        let curve = curve.expect("a curve");
+        assert!(curve.len() < 320, "{}", curve.len());
+        let top = curve.iter().map(|point| point[1]).fold(f64::MAX, f64::min);
+        assert!((top - frame.y.at(0.9)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn categories_go_down_the_page_with_their_bars_intervals_and_words_inside() {
+        let page = Page::screen([500.0, 240.0], 11.0);
+        let names = ["Disk 1", "Disk 2"].map(String::from);
+        let mut panel = Panel::new(axis("x"), Axis::categories("", names, true));
+        panel.x.range = Some([0.0, 0.03]);
+        panel.bars = vec![Bars { name: String::new(), role: Role::Sensor, corners: vec![[[0.0, 0.4], [0.01, -9.0]]] }];
+        let ends = vec![[[0.01, 1.0], [0.02, 1.0], [9.0, 1.0]]];
+        panel.intervals = vec![Intervals { name: String::new(), role: Role::Bound, ends }];
+        panel.asides = vec![Aside { y: 1.0, lines: vec!["found 3 of 100".into()] }];
+        let drawing = of(panel, &page);
+        let frame = drawing.frames[0];
+        let text = |wanted: &str| {
+            let texts =
+                drawing.shapes.iter().filter_map(|shape| if let Item::Text(text) = shape { Some(text) } else { None });
+            texts.filter(|text| text.text == wanted).map(|text| text.at).next().expect("a text")
+        };
+        assert!(text("Disk 1")[1] < text("Disk 2")[1] && text("Disk 2")[1] == frame.y.at(1.0));
+        let beside = text("found 3 of 100");
+        assert!(beside[0] > frame.data.right && beside[0] + width("found 3 of 100", 11.0, false) <= page.size[0]);
+        for shape in &drawing.shapes {
+            match shape {
+                Item::Fill(rect, paint) if paint.ink == Ink::Role(Role::Sensor) => {
+                    assert!(rect.top >= frame.data.top && rect.bottom <= frame.data.bottom, "{rect:?}");
+                }
+                Item::Line(points, paint, ..) if paint.ink == Ink::Role(Role::Bound) => {
+                    assert!(points.iter().all(|point| point[0] <= frame.data.right + 1e-9), "{points:?}");
+                }
+                _ => {}
+            }
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 /// A part of a text that is written in one way.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Run {
+pub struct Stretch {
     /// Its characters.
     pub text: String,
     /// Whether they stand below the line.
@@ -11,8 +11,8 @@ pub struct Run {
 
 /// Parts a text. A `_` at the very end lowers nothing and is left out.
 #[must_use]
-pub fn runs(text: &str) -> Vec<Run> {
-    let mut runs: Vec<Run> = Vec::new();
+pub fn runs(text: &str) -> Vec<Stretch> {
+    let mut runs: Vec<Stretch> = Vec::new();
     let mut low = false;
     for character in text.chars() {
         if character == '_' && !low {
@@ -22,7 +22,7 @@ pub fn runs(text: &str) -> Vec<Run> {
         low &= character != '_';
         match runs.last_mut() {
             Some(run) if run.low == low => run.text.push(character),
-            _ => runs.push(Run { text: character.into(), low }),
+            _ => runs.push(Stretch { text: character.into(), low }),
         }
         low = false;
     }
@@ -61,7 +61,7 @@ mod tests {
 
     #[test]
     fn an_underscore_lowers_one_character() {
-        let run = |text: &str, low| Run { text: text.into(), low };
+        let run = |text: &str, low| Stretch { text: text.into(), low };
         assert_eq!(runs("ε_c of θ_L"), [run("ε", false), run("c", true), run(" of θ", false), run("L", true)]);
         assert_eq!(runs("a__b_"), [run("a_b", false)]);
         assert_eq!(runs(&plain("min_speed")), [run("min_speed", false)]);

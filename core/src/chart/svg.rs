@@ -1,9 +1,9 @@
 //! A drawing as SVG. The same drawing and colours give the same bytes everywhere.
 
 use super::Chart;
-use super::clip::{Point, Rect};
+use super::clip::{Rect, Spot};
 use super::font::{FAMILY, LOW, MIDDLE, STRONG_FAMILY, STRONG_WEIGHT, SUNK, plain_width};
-use super::layout::{Align, Drawing, Form, Ink, Paint, Shape, Text};
+use super::layout::{Align, Drawing, Form, Ink, Item, Paint, Text};
 use super::notation::runs;
 use libm::rint;
 use std::fmt::Write;
@@ -12,6 +12,22 @@ use std::fmt::Write;
 pub const FAINT: f64 = 0.28;
 
 /// Writes a drawing of a chart; `color` gives red, green and blue of an ink.
+///
+/// ```
+/// use centrode_core::chart::layout::{Page, layout};
+/// use centrode_core::chart::svg::svg;
+/// use centrode_core::scenario::Scenario;
+/// use centrode_core::study::Job;
+/// use centrode_core::study::figure::{FigureJob, Number};
+///
+/// let mut job = FigureJob::new(Number::Three, &Scenario::default())?;
+/// job.finish();
+/// let chart = job.chart();
+/// let drawing = layout(&chart, &Page { words: true, ..Page::screen([640.0, 480.0], 12.0) });
+/// let text = svg(&drawing, &chart, &|_| [0, 0, 0]);
+/// assert!(text.starts_with("<svg") && text.contains("Least detectable joint force deviation"));
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[must_use]
 pub fn svg(drawing: &Drawing, chart: &Chart, color: &dyn Fn(Ink) -> [u8; 3]) -> String {
     let mut page = Page { text: String::new(), color };
@@ -36,7 +52,7 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
-fn path(points: impl Iterator<Item = Point>) -> String {
+fn path(points: impl Iterator<Item = Spot>) -> String {
     let mut path = String::new();
     for [x, y] in points {
         let lead = if path.is_empty() { 'M' } else { 'L' };
@@ -82,19 +98,19 @@ impl Page<'_> {
         self.line("</svg>");
     }
 
-    fn shape(&mut self, shape: &Shape, chart: &Chart) {
+    fn shape(&mut self, shape: &Item, chart: &Chart) {
         match shape {
-            Shape::Fill(rect, paint) => {
+            Item::Fill(rect, paint) => {
                 let paint = self.paint("fill", *paint);
                 self.rect(*rect, &paint);
             }
-            Shape::Map(rect, panel) => self.map(*rect, chart, *panel),
-            Shape::Band(edges, paint) => {
+            Item::Map(rect, panel) => self.map(*rect, chart, *panel),
+            Item::Band(edges, paint) => {
                 let around = edges.iter().map(|edge| edge[0]).chain(edges.iter().rev().map(|edge| edge[1]));
                 let line = format!("<path d=\"{}Z\" {}/>", path(around), self.paint("fill", *paint));
                 self.line(&line);
             }
-            Shape::Line(points, paint, wide, dash) => {
+            Item::Line(points, paint, wide, dash) => {
                 let dash = dash
                     .map_or(String::new(), |[on, off]| format!(" stroke-dasharray=\"{} {}\"", length(on), length(off)));
                 let (path, paint) = (path(points.iter().copied()), self.paint("stroke", *paint));
@@ -103,8 +119,8 @@ impl Page<'_> {
                     length(*wide)
                 ));
             }
-            Shape::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
-            Shape::Text(text) => self.words(text),
+            Item::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
+            Item::Text(text) => self.words(text),
         }
     }
 
@@ -113,16 +129,16 @@ impl Page<'_> {
         self.line(&format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" {attributes}/>"));
     }
 
-    fn mark(&mut self, [x, y]: Point, form: Form, radius: f64, paint: Paint, edge: Ink) {
+    fn mark(&mut self, [x, y]: Spot, form: Form, radius: f64, paint: Paint, edge: Ink) {
         let (fill, stroke) = match form {
-            Form::Triangle | Form::Dot => (self.paint("fill", paint), self.hex(edge)),
+            Form::Triangle | Form::Dot | Form::Diamond => (self.paint("fill", paint), self.hex(edge)),
             Form::Circle => (format!("fill=\"{}\"", self.hex(edge)), self.hex(paint.ink)),
             Form::Ring => ("fill=\"none\"".into(), self.hex(paint.ink)),
         };
         let wide = length(radius * form.stroke());
         let line = match form {
-            Form::Triangle => {
-                let outline = path(form.triangle([x, y], radius).into_iter());
+            Form::Triangle | Form::Diamond => {
+                let outline = path(form.corners([x, y], radius).into_iter());
                 format!(
                     "<path d=\"{outline}Z\" {fill} stroke=\"{stroke}\" stroke-width=\"{wide}\" paint-order=\"stroke\"/>"
                 )

@@ -93,7 +93,7 @@ impl Alarms {
         let lamp = |detector| Lamp { detector, above: false, standing: None, low_since: None };
         Self {
             settings: settings.clone(),
-            lamps: Method::ALL.map(lamp).into(),
+            lamps: Method::ALL.iter().copied().map(lamp).collect(),
             crossings: Vec::new(),
             events: Vec::new(),
         }

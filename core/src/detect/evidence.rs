@@ -1,6 +1,6 @@
 //! What both methods compute at each instant, before any threshold: filtered motion, centrodes, joint forces (Eqs. 12, 16–18).
 
-use super::filter::{Motion, PoseFilter};
+use super::filter::{FilteredMotion, PoseFilter};
 use super::judge::Settings;
 use crate::model::centrode::centrode;
 use crate::model::{Configuration, Covector, Rate, Segment, Vec3};
@@ -35,7 +35,7 @@ pub struct Judgement {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evidence {
     /// Position and motion of the end disk as the filtered tracker shows them.
-    pub motion: Motion,
+    pub motion: FilteredMotion,
     /// What the two methods make of it.
     pub judgement: Judgement,
 }
@@ -74,7 +74,7 @@ const UNDEFINED: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
 
 /// The sensor's centrode (m) and its distance from the model's (m); NaN where the end disk does not turn.
 #[must_use]
-pub fn deviation(model_centrode: &Vec3, motion: &Motion) -> (Vec3, f64) {
+pub fn deviation(model_centrode: &Vec3, motion: &FilteredMotion) -> (Vec3, f64) {
     let sensor_centrode = centrode(&motion.position, &motion.twist).unwrap_or(UNDEFINED);
     (sensor_centrode, (model_centrode - sensor_centrode).norm())
 }
@@ -109,17 +109,17 @@ impl Observer {
 
     /// The motion as of the next reading. After a gap the average begins anew, and nothing is known until it is whole again: noise
     /// in an average of a few readings would raise alarms.
-    fn motion(&mut self, reading: &Reading) -> Motion {
+    fn motion(&mut self, reading: &Reading) -> FilteredMotion {
         if reading.position.x.is_nan() {
             (self.filter, self.missing) = (self.empty.clone(), self.length);
-            return Motion::UNDEFINED;
+            return FilteredMotion::UNDEFINED;
         }
         let motion = self.filter.push(reading);
         if self.missing == 0 {
             return motion;
         }
         self.missing -= 1;
-        Motion::UNDEFINED
+        FilteredMotion::UNDEFINED
     }
 
     /// Takes the next entry.

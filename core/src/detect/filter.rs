@@ -80,14 +80,14 @@ fn add(sum: f64, error: f64, x: f64) -> (f64, f64) {
 
 /// Position and motion of the end disk as the sensor shows them, in {B}.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Motion {
+pub struct FilteredMotion {
     /// p_s, m.
     pub position: Vec3,
     /// ṗ_s (m/s) and ω_s (rad/s).
     pub twist: Twist,
 }
 
-impl Motion {
+impl FilteredMotion {
     /// Where there is no reading.
     pub const UNDEFINED: Self = {
         let undefined = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
@@ -160,7 +160,7 @@ impl PoseFilter {
     }
 
     /// Takes one reading in; the motion is the backward difference of the averages.
-    pub fn push(&mut self, reading: &Reading) -> Motion {
+    pub fn push(&mut self, reading: &Reading) -> FilteredMotion {
         self.take(reading);
         self.motion()
     }
@@ -175,13 +175,13 @@ impl PoseFilter {
     }
 
     /// The motion as of the last reading.
-    pub fn motion(&mut self) -> Motion {
+    pub fn motion(&mut self) -> FilteredMotion {
         let turn = match &mut self.orientation {
             Orientation::Readings(angles) => angles.turn(),
             Orientation::Rotations(quaternions) => quaternions.turn(),
         };
         let (position, step) = self.at;
-        Motion {
+        FilteredMotion {
             position: position.into(),
             twist: Twist { linear: Vec3::from(step) * self.rate, angular: turn * self.rate },
         }

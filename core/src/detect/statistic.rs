@@ -1,11 +1,11 @@
 //! What a method holds against its threshold, and the one place that says whether that counts at an instant.
 
 use super::evidence::Judgement;
-use crate::scenario::Thresholds;
-use serde::Serialize;
+use crate::scenario::{Threshold, Thresholds, Xi1Rule};
+use serde::{Deserialize, Serialize};
 
 /// How a contact is noticed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
     /// Fixed centrode deviation ‖c_m − c_s‖ above ξ2 (Eq. 19).
@@ -16,7 +16,7 @@ pub enum Method {
 
 impl Method {
     /// All of them, in the order in which they judge an instant.
-    pub const ALL: [Self; 2] = [Self::Fcd, Self::Jfd];
+    pub const ALL: &'static [Self] = &[Self::Fcd, Self::Jfd];
 
     /// Its key in files and on the command line.
     #[must_use]
@@ -24,6 +24,15 @@ impl Method {
         match self {
             Self::Fcd => "fcd",
             Self::Jfd => "jfd",
+        }
+    }
+
+    /// The key of its threshold in a scenario.
+    #[must_use]
+    pub fn threshold_key(self) -> &'static str {
+        match self {
+            Self::Fcd => "detection.xi2",
+            Self::Jfd => "detection.xi1",
         }
     }
 
@@ -59,6 +68,53 @@ impl Method {
         match self {
             Self::Fcd => thresholds.xi2.value(),
             Self::Jfd => thresholds.xi1_at(judgement.shape_bound),
+        }
+    }
+
+    /// What is set of its threshold, as a study counts it: ξ2 in m, ξ1 in N·m, or k where ξ1 follows the shape; none while
+    /// switched off. Times [`Method::unit`] it is the threshold.
+    #[must_use]
+    pub fn setting(self, thresholds: &Thresholds) -> Option<f64> {
+        match (self, thresholds.xi1_rule) {
+            (Self::Fcd, _) => thresholds.xi2.value(),
+            (Self::Jfd, Xi1Rule::Constant) => thresholds.xi1.value(),
+            (Self::Jfd, Xi1Rule::Bound) => thresholds.xi1.value().map(|_| thresholds.xi1_factor),
+        }
+    }
+
+    /// The unit of its setting where the free model's bound ε_c(θL) is `shape_bound` (N·m): that bound where the threshold
+    /// follows the shape, else 1.
+    #[must_use]
+    pub fn unit(self, thresholds: &Thresholds, shape_bound: f64) -> f64 {
+        match (self, thresholds.xi1_rule) {
+            (Self::Jfd, Xi1Rule::Bound) => shape_bound,
+            _ => 1.0,
+        }
+    }
+
+    /// Thresholds in which what it does not look at, one of ξ1 and k, is the default.
+    pub fn tidy(self, thresholds: &mut Thresholds) {
+        let default = Thresholds::default();
+        match (self, thresholds.xi1_rule, thresholds.xi1) {
+            (Self::Jfd, Xi1Rule::Constant, _) => thresholds.xi1_factor = default.xi1_factor,
+            (Self::Jfd, Xi1Rule::Bound, Threshold::On(_)) => thresholds.xi1 = default.xi1,
+            _ => {}
+        }
+    }
+
+    /// Thresholds in which what is set of its own plays no part, but for the unit.
+    pub fn forget_setting(self, thresholds: &mut Thresholds) {
+        match self {
+            Self::Fcd => thresholds.xi2 = Threshold::OFF,
+            Self::Jfd => (thresholds.xi1, thresholds.xi1_factor) = (Threshold::OFF, Thresholds::default().xi1_factor),
+        }
+    }
+
+    /// Thresholds in which its own plays no part.
+    pub fn forget(self, thresholds: &mut Thresholds) {
+        self.forget_setting(thresholds);
+        if self == Self::Jfd {
+            thresholds.xi1_rule = Thresholds::default().xi1_rule;
         }
     }
 }
@@ -107,8 +163,23 @@ mod tests {
     use crate::model::Vec3;
 
     #[test]
-    fn a_value_counts_once_armed_fast_enough_and_defined() {
-        let judgement = |deviation, speed, residual| Judgement {
+    fn a_setting_times_its_unit_is_the_threshold() {
+        for xi1_rule in [Xi1Rule::Constant, Xi1Rule::Bound] {
+            let thresholds = Thresholds { xi1_rule, xi1_factor: 1.3, ..Thresholds::default() };
+            let judgement = Judgement { shape_bound: 0.0123, ..judgement(0.0, 1.0, 0.0) };
+            for &method in Method::ALL {
+                let setting = method.setting(&thresholds).expect("on");
+                let threshold = setting * method.unit(&thresholds, judgement.shape_bound);
+                assert_eq!(method.threshold(&judgement, &thresholds), Some(threshold), "{method:?} {xi1_rule:?}");
+                let mut forgotten = thresholds.clone();
+                method.forget(&mut forgotten);
+                assert_eq!(method.threshold(&judgement, &forgotten), None);
+            }
+        }
+    }
+
+    fn judgement(deviation: f64, speed: f64, residual: f64) -> Judgement {
+        Judgement {
             model_centrode: Vec3::zeros(),
             sensor_centrode: Vec3::zeros(),
             deviation,
@@ -117,7 +188,11 @@ mod tests {
             common_bound: 0.0,
             independent_bound: 0.0,
             shape_bound: 0.0,
-        };
+        }
+    }
+
+    #[test]
+    fn a_value_counts_once_armed_fast_enough_and_defined() {
         let thresholds = Thresholds { armed_from: 5.0, min_speed: 0.05, ..Thresholds::default() };
         for (method, deviation, speed, residual, time, standing) in [
             (Method::Fcd, 0.01, 0.06, 0.0, 5.0, Standing::Counts),

@@ -5,6 +5,18 @@ use super::{Arc, Configuration, Jacobian, Vec3, Wrench};
 use libm::sqrt;
 
 /// What one segment is made of.
+///
+/// ```
+/// use centrode_core::model::{Configuration, Vec3};
+/// use centrode_core::scenario::Scenario;
+///
+/// let segment = Scenario::default().robot.segment();
+/// let bent = Configuration::new(1.0, 0.0);
+/// // Load cells that read what the model expects leave no joint force deviation Θ (Eq. 12).
+/// let tau: Vec3 = segment.forces_from_load(&bent, &segment.energy_gradient(&bent));
+/// assert!(segment.residual(&bent, &tau) < 1e-12);
+/// assert!(segment.residual(&bent, &(1.1 * tau)) > 1e-3, "N·m");
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Segment {
     /// Length L of the primary backbone, m.

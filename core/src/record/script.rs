@@ -28,6 +28,8 @@ pub struct Script {
     steps: Vec<Step>,
     /// Pose of the end disk at each of the tracker's readings, in order.
     tips: Vec<Pose>,
+    /// The first instant in contact.
+    contact: Option<usize>,
 }
 
 impl Script {
@@ -48,8 +50,8 @@ impl Script {
             let Truth { held, tau, .. } = Truth::of(&plant, configuration, time);
             Step { time, configuration, theta_l_rate, tau, held: held.is_some() }
         };
-        let steps = (0..plan.samples()).map(step).collect();
-        Self { steps, tips }
+        let steps: Vec<_> = (0..plan.samples()).map(step).collect();
+        Self { contact: steps.iter().position(|step| step.held), steps, tips }
     }
 
     /// The instants of the loop.
@@ -58,10 +60,16 @@ impl Script {
         &self.steps
     }
 
+    /// Truth: the first instant in contact, as its place among the instants.
+    #[must_use]
+    pub fn contact_sample(&self) -> Option<usize> {
+        self.contact
+    }
+
     /// Truth: time of the first instant in contact, s.
     #[must_use]
     pub fn contact_time(&self) -> Option<f64> {
-        self.steps.iter().find(|step| step.held).map(|step| step.time)
+        self.contact.map(|sample| self.steps[sample].time)
     }
 
     /// The tracker's readings in one repeat. `plan` is the script's own but for its seed.

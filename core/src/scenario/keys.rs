@@ -100,6 +100,24 @@ pub fn is_group(path: &str) -> bool {
     GROUPS.iter().any(|group| group.path == path)
 }
 
+/// The refusal of a path, with what is known at the place where it goes astray.
+pub(super) fn unknown(path: &str) -> ScenarioError {
+    let mut group = path;
+    while let Some((before, _)) = group.rsplit_once('.') {
+        group = before;
+        if find(group).is_some() {
+            return ScenarioError::UnknownKey {
+                key: path.into(),
+                known: format!("{group}, which holds no keys of its own"),
+            };
+        }
+        if is_group(group) {
+            return ScenarioError::UnknownKey { key: path.into(), known: names(group).join(", ") };
+        }
+    }
+    ScenarioError::UnknownKey { key: path.into(), known: names("").join(", ") }
+}
+
 impl Key {
     /// Its name within its group.
     #[must_use]

@@ -6,7 +6,7 @@ use crate::scenario::keys::allowed::bend_refused;
 use crate::scenario::keys::{KEYS, Quantity, Value};
 use crate::scenario::motion;
 use crate::scenario::refusal::{Refused, ScenarioError};
-use crate::scenario::{Motion, Place, Scenario, Start};
+use crate::scenario::{Contact, Motion, Place, Scenario, Start, Thresholds};
 
 /// The longest run, in samples.
 pub const MAX_SAMPLES: f64 = 1e8;
@@ -68,9 +68,22 @@ pub struct Plan {
 impl Plan {
     /// Validates a scenario.
     ///
+    /// ```
+    /// use centrode_core::scenario::{Plan, Scenario};
+    ///
+    /// let mut scenario = Scenario::default();
+    /// assert_eq!(Plan::new(&scenario)?.samples(), 10_001);
+    /// scenario.filter.length = 20_000;
+    /// let refused = Plan::new(&scenario).expect_err("longer than the run").to_string();
+    /// assert!(refused.starts_with("filter.length = 20000 is not allowed: a whole number from 1 to 10001"));
+    /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+    /// ```
+    ///
     /// # Errors
-    /// The first impossible value, with its key and what is allowed.
+    /// [`ScenarioError::Value`]: the first impossible value in the order of the table of keys, with its key and what is allowed.
     pub fn new(scenario: &Scenario) -> Result<Self, ScenarioError> {
+        #[cfg(test)]
+        tests::VALIDATED.set(tests::VALIDATED.get() + 1);
         KEYS.iter().try_for_each(|key| key.check(scenario))?;
         Ok(Self {
             segments: vec![scenario.robot.segment()],
@@ -84,6 +97,18 @@ impl Plan {
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> Self {
         Self { scenario: Scenario { seed: seed & MAX_SEED, ..self.scenario.clone() }, ..self.clone() }
+    }
+
+    /// The same without a contact, which is always possible.
+    #[must_use]
+    pub fn without_contact(&self) -> Self {
+        let contact = Contact { place: Place::Nowhere, ..self.scenario.contact };
+        Self { scenario: Scenario { contact, ..self.scenario.clone() }, contacts: Vec::new(), ..self.clone() }
+    }
+
+    /// The same with thresholds that whoever calls knows to be possible: those of a plan, switched off, or the default.
+    pub(crate) fn with_thresholds(&self, detection: Thresholds) -> Self {
+        Self { scenario: Scenario { detection, ..self.scenario.clone() }, ..self.clone() }
     }
 
     /// What was asked for.
@@ -168,4 +193,23 @@ fn resolve_contact(scenario: &Scenario) -> Option<PlannedContact> {
 
 fn side(toward: f64) -> f64 {
     if toward < 0.0 { -1.0 } else { 1.0 }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use std::cell::Cell;
+
+    thread_local! {
+        /// How often this thread has validated a scenario.
+        pub(crate) static VALIDATED: Cell<usize> = const { Cell::new(0) };
+    }
+
+    #[test]
+    fn without_contact_a_plan_is_that_of_the_scenario_without_one() {
+        let mut scenario = Scenario::default();
+        let plan = Plan::new(&scenario).expect("possible");
+        scenario.contact.place = Place::Nowhere;
+        assert_eq!(Plan::new(&scenario), Ok(plan.without_contact()));
+    }
 }

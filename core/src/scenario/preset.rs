@@ -63,8 +63,17 @@ impl Preset {
 
 /// The preset of a name.
 ///
+/// ```
+/// use centrode_core::scenario::preset::find;
+///
+/// let noisy = find("bench")?.scenario()?;
+/// assert!(noisy.tracker.position_noise > 0.0);
+/// assert!(find("bensh").expect_err("none of this name").to_string().contains("known presets: bench, paper"));
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
+///
 /// # Errors
-/// When there is none, with the names that exist.
+/// [`ScenarioError::UnknownPreset`] when there is none, with the names that exist.
 pub fn find(name: &str) -> Result<&'static Preset, ScenarioError> {
     PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| ScenarioError::UnknownPreset {
         name: name.into(),

@@ -11,7 +11,7 @@ pub enum ScenarioError {
     #[error("{0}")]
     Value(Box<Refused>),
     /// A key that does not exist.
-    #[error("unknown key {key}; known are: {known}")]
+    #[error("unknown key {key}; known keys: {known}")]
     UnknownKey {
         /// Dotted key.
         key: String,
@@ -39,7 +39,7 @@ pub enum ScenarioError {
         text: String,
     },
     /// A preset that does not exist.
-    #[error("unknown preset {name:?}; known are: {known}")]
+    #[error("unknown preset {name:?}; known presets: {known}")]
     UnknownPreset {
         /// The name given.
         name: String,

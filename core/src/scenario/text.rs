@@ -2,6 +2,7 @@
 
 use crate::scenario::Scenario;
 use crate::scenario::keys::{self, Allowed, GROUPS, KEYS, Key, Quantity, Value};
+use crate::scenario::overrides::Override;
 use crate::scenario::refusal::{Refused, ScenarioError};
 use toml::Table;
 
@@ -9,6 +10,17 @@ use toml::Table;
 pub const DEFAULT_TOML: &str = include_str!("../../../assets/scenario.toml");
 
 /// A scenario being put together: a file or preset, then overrides, then a check.
+///
+/// ```
+/// use centrode_core::scenario::text::Draft;
+///
+/// let mut draft = Draft::from_toml("[filter]\nlength = 200")?;
+/// draft.set("contact.disk=3")?;
+/// assert_eq!(draft.finish()?.filter.length, 200);
+/// let refused = Draft::from_toml("[filter]\nlenght = 200").expect_err("no such key").to_string();
+/// assert!(refused.contains("filter.lenght") && refused.contains("length, averaging"), "{refused}");
+/// # Ok::<(), centrode_core::scenario::ScenarioError>(())
+/// ```
 #[derive(Debug, Clone, Default)]
 pub struct Draft {
     scenario: Scenario,
@@ -24,7 +36,7 @@ impl Draft {
     /// From a file's bytes.
     ///
     /// # Errors
-    /// When they are not UTF-8, not TOML, or hold an unknown key or a value of another kind.
+    /// [`ScenarioError::NotText`] when they are not UTF-8, and those of [`Draft::from_toml`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ScenarioError> {
         let text =
             std::str::from_utf8(bytes).map_err(|error| ScenarioError::NotText { offset: error.valid_up_to() })?;
@@ -34,74 +46,70 @@ impl Draft {
     /// From TOML; missing keys have their defaults.
     ///
     /// # Errors
-    /// When it is not TOML, or holds an unknown key or a value of another kind.
+    /// [`ScenarioError::Syntax`] when it is not TOML, [`ScenarioError::UnknownKey`] for a key that does not exist,
+    /// [`ScenarioError::Value`] for a value of another kind or two keys of which only one can be given.
     pub fn from_toml(text: &str) -> Result<Self, ScenarioError> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let table = text.parse::<Table>().map_err(|error| ScenarioError::Syntax {
             line: error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count()),
             message: error.message().replace('\n', " "),
         })?;
-        let mut scenario = Scenario::default();
-        read_group(&mut scenario, "", &table)?;
+        let (mut scenario, mut values) = (Scenario::default(), Vec::new());
+        read_group(&mut values, "", &table)?;
+        for (key, value) in values {
+            key.set(&mut scenario, value)?;
+        }
         Ok(Self { scenario })
     }
 
     /// Overrides one key with `key=value`; the value is TOML, or a bare word.
     ///
     /// # Errors
-    /// When the text is not `key=value`, the key is unknown, or the value is of another kind.
+    /// [`ScenarioError::Override`] when the text is not `key=value`, [`ScenarioError::UnknownKey`] for a key that does not exist,
+    /// [`ScenarioError::Value`] for a value of another kind.
     pub fn set(&mut self, text: &str) -> Result<(), ScenarioError> {
-        let malformed = || ScenarioError::Override { text: text.into() };
-        let (path, value) = text.split_once('=').ok_or_else(malformed)?;
-        let (path, value) = (path.trim(), value.trim());
-        if path.is_empty() || value.is_empty() {
-            return Err(malformed());
-        }
-        let value = match format!("value = {value}").parse::<Table>() {
-            Ok(mut table) if table.len() == 1 => table.remove("value").ok_or_else(malformed)?,
-            _ => toml::Value::String(value.into()),
-        };
-        if keys::is_group(path) {
-            // A group is given as a whole: what it does not name has its default.
-            let (default, within) = (Scenario::default(), format!("{path}."));
-            for key in KEYS.iter().filter(|key| key.path.starts_with(&within)) {
-                key.copy(&default, &mut self.scenario);
-            }
-        }
-        read(&mut self.scenario, path, &value)
+        text.parse::<Override>()?.apply(&mut self.scenario);
+        Ok(())
     }
 
     /// The scenario, checked.
     ///
     /// # Errors
-    /// The first value that is impossible.
+    /// [`ScenarioError::Value`]: the first value that is impossible, with its key and what is allowed.
     pub fn finish(self) -> Result<Scenario, ScenarioError> {
         KEYS.iter().try_for_each(|key| key.check(&self.scenario))?;
         Ok(self.scenario)
     }
 }
 
-/// Reads what stands at a path.
-fn read(scenario: &mut Scenario, path: &str, value: &toml::Value) -> Result<(), ScenarioError> {
+/// Reads what stands at a path: the values that it gives keys, in order.
+pub(super) fn read_into(
+    values: &mut Vec<(&'static Key, Value)>,
+    path: &str,
+    value: &toml::Value,
+) -> Result<(), ScenarioError> {
     if let Some(key) = keys::find(path) {
         let value = key.read(value)?;
-        return key.set(scenario, value);
+        // What is of another kind in itself, such as a vector of two numbers.
+        key.set(&mut Scenario::default(), value.clone())?;
+        values.push((key, value));
+        return Ok(());
     }
     match (GROUPS.iter().find(|group| group.path == path), value) {
-        (Some(_), toml::Value::Table(table)) => read_group(scenario, path, table),
+        (Some(_), toml::Value::Table(table)) => read_group(values, path, table),
         (Some(group), value) => Err(Refused::error(path, Quantity::Word, written(value), Allowed::Group(group.path))),
-        (None, _) => Err(unknown(path)),
+        (None, _) => Err(keys::unknown(path)),
     }
 }
 
-fn read_group(scenario: &mut Scenario, group: &str, table: &Table) -> Result<(), ScenarioError> {
+fn read_group(values: &mut Vec<(&'static Key, Value)>, group: &str, table: &Table) -> Result<(), ScenarioError> {
     for (name, value) in table {
         let path = if group.is_empty() { name.clone() } else { format!("{group}.{name}") };
         // A quoted name is one name, whatever it holds.
         if name.contains('.') {
-            return Err(unknown(&path));
+            return Err(keys::unknown(&path));
         }
-        read(scenario, &path, value)?;
+        read_into(values, &path, value)?;
         if let Some((key, other)) = keys::find(&path).and_then(|key| Some((key, key.other()?)))
             && table.contains_key(other.name())
         {
@@ -109,24 +117,6 @@ fn read_group(scenario: &mut Scenario, group: &str, table: &Table) -> Result<(),
         }
     }
     Ok(())
-}
-
-/// The refusal of a path, with what is known at the place where it goes astray.
-fn unknown(path: &str) -> ScenarioError {
-    let mut group = path;
-    while let Some((before, _)) = group.rsplit_once('.') {
-        group = before;
-        if keys::find(group).is_some() {
-            return ScenarioError::UnknownKey {
-                key: path.into(),
-                known: format!("{group}, which holds no keys of its own"),
-            };
-        }
-        if keys::is_group(group) {
-            return ScenarioError::UnknownKey { key: path.into(), known: keys::names(group).join(", ") };
-        }
-    }
-    ScenarioError::UnknownKey { key: path.into(), known: keys::names("").join(", ") }
 }
 
 /// A value as it was written, on one line.
@@ -269,8 +259,8 @@ mod tests {
             ("[robot]\ndisks = [0.01, 0.005]", &["robot.disks[1]", "0.005"]),
             ("[robot]\ndisks = 3", &["robot.disks", "list"]),
             ("[contact]\ndisk = 4", &["contact.disk", "4", "1 to 3"]),
-            ("[contact]\ndisk = -1", &["contact.disk", "-1", "whole"]),
-            ("[contact]\ndisk = 1.5", &["contact.disk", "1.5", "whole"]),
+            ("[contact]\ndisk = -1", &["contact.disk", "-1", "number of a disk"]),
+            ("[contact]\ndisk = 1.5", &["contact.disk", "1.5", "number of a disk"]),
             ("[contact]\narc_length = 0.031", &["contact.arc_length", "0.031", "0.03"]),
             ("[contact]\ndisk = 1\narc_length = 0.01", &["contact", "not both"]),
             ("[contact]\ntime = 1\nbend = 0.01", &["contact", "not both"]),
@@ -284,7 +274,7 @@ mod tests {
             ("[motion]\nend = 1e9", &["motion.end", "1000000000", "1e8"]),
             ("[motion]\nfinish = 2", &["motion.finish", "2", "after"]),
             ("seed = -1", &["seed", "-1", "whole"]),
-            ("loop_rate = 1e308", &["loop_rate", "1e308", "1000000 Hz"]),
+            ("loop_rate = 1e308", &["loop_rate", "1e308", "1e6 Hz"]),
             ("contact = 3", &["contact", "3", "arc_length"]),
             ("[robot]\ndisks = []", &["contact.disk", "2", "no spacer disks"]),
             ("[robot]\ndisks = [0.01, true]", &["robot.disks[1]", "= true", "number"]),

@@ -25,7 +25,7 @@ const NEARLY: f64 = 1.0 - 1e-9;
 
 /// The map of a scenario's motion, without noise. Its own contact does not matter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Map {
+pub struct ContactMap {
     /// Arc lengths s_c of the contact, m: the rows' middles, from the base up.
     pub arc_lengths: Vec<f64>,
     /// Bends φ at contact, rad: the columns' middles, in the order in which the motion passes them.
@@ -38,8 +38,8 @@ pub struct Map {
     pub epsilon: Vec<f64>,
 }
 
-impl Map {
-    /// Place of a cell in [`Map::deviation`] and [`Map::epsilon`].
+impl ContactMap {
+    /// Place of a cell in [`ContactMap::deviation`] and [`ContactMap::epsilon`].
     #[must_use]
     pub fn cell(&self, row: usize, column: usize) -> usize {
         row * self.bends.len() + column
@@ -61,12 +61,12 @@ fn index(middles: &[f64], value: f64) -> Option<usize> {
     inside.then(|| (place.max(0.0) as usize).min(middles.len() - 1))
 }
 
-/// Computes a [`Map`], a row at a time.
+/// Computes a [`ContactMap`], a row at a time.
 #[derive(Debug, Clone)]
 pub struct MapJob {
     plan: Plan,
     course: Course,
-    map: Map,
+    map: ContactMap,
     row: usize,
 }
 
@@ -86,7 +86,7 @@ impl MapJob {
         let middles = |from: f64, to: f64, count: usize| -> Vec<f64> {
             (0..count).map(|k| from + (to - from) * (k as f64 + 0.5) / count as f64).collect()
         };
-        let map = Map {
+        let map = ContactMap {
             arc_lengths: middles(0.0, scenario.robot.length, rows),
             bends: middles(from, to, columns),
             deviation: vec![f64::NAN; columns * rows],
@@ -97,7 +97,7 @@ impl MapJob {
 
     /// What is computed so far.
     #[must_use]
-    pub fn map(&self) -> &Map {
+    pub fn map(&self) -> &ContactMap {
         &self.map
     }
 }
@@ -119,13 +119,13 @@ impl Job for MapJob {
     }
 }
 
-/// The largest deviation that the centrode of a contact reaches, m; see [`Map::deviation`].
+/// The largest deviation that the centrode of a contact reaches, m; see [`ContactMap::deviation`].
 #[must_use]
 pub fn largest_deviation(plan: &Plan, contact: &PlannedContact) -> f64 {
     Course::new(plan).largest_deviation(contact)
 }
 
-/// The largest error of the load cells with which a contact is found; see [`Map::epsilon`].
+/// The largest error of the load cells with which a contact is found; see [`ContactMap::epsilon`].
 #[must_use]
 pub fn largest_epsilon(plan: &Plan, contact: &PlannedContact) -> f64 {
     let scenario = plan.scenario();

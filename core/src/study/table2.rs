@@ -3,6 +3,8 @@
 //! Three disks are met one after the other and each experiment is repeated. The table says when the contact was
 //! detected, at which θL, and where along the backbone it was placed.
 
+pub mod chart;
+
 use super::seed::repeat_seed;
 use super::{Job, Progress};
 use crate::detect::alarm::Alarms;
@@ -52,14 +54,14 @@ pub struct Row {
 
 /// Mean and scatter of a quantity over the experiments in which contact was found.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Statistic {
+pub struct Spread {
     /// The mean; NaN over none.
     pub mean: f64,
     /// The sample standard deviation (n − 1); NaN below two.
     pub deviation: f64,
 }
 
-impl Statistic {
+impl Spread {
     /// Of values, which may be looked at twice.
     #[must_use]
     pub fn of(values: impl Iterator<Item = f64> + Clone) -> Self {
@@ -75,9 +77,9 @@ impl Statistic {
 pub struct Disk {
     /// The disk in contact, counted from 1 at the base.
     pub disk: u64,
-    /// Truth: arc length s_c of the disk, m.
+    /// Met: arc length s_c of the disk, m.
     pub arc_length: f64,
-    /// Truth: when contact began, s. NaN when it never did, and for the paper, which does not say.
+    /// Met: when contact began, s. NaN when it never did, and for the paper, which does not say.
     pub contact_time: f64,
     /// Experiments made.
     pub repeats: usize,
@@ -86,22 +88,22 @@ pub struct Disk {
     /// In how many the alarm came before contact; `None` for the paper, which does not say.
     pub false_alarms: Option<usize>,
     /// Time of detection, s.
-    pub detection_time: Statistic,
+    pub detection_time: Spread,
     /// Time from contact to detection, s.
-    pub delay: Statistic,
+    pub delay: Spread,
     /// θL at detection, rad.
-    pub theta_l: Statistic,
+    pub theta_l: Spread,
     /// Estimated location of the contact, m.
-    pub location: Statistic,
+    pub location: Spread,
     /// Mean estimate less the truth, m.
     pub bias: f64,
 }
 
 impl Disk {
-    fn new(truth: Truth, rows: &[Row], false_alarms: Option<usize>) -> Self {
+    fn new(truth: Met, rows: &[Row], false_alarms: Option<usize>) -> Self {
         let rows = rows.iter().filter(move |row| row.disk == truth.disk);
         let found = rows.clone().filter(|row| row.outcome == Outcome::Found);
-        let location = Statistic::of(found.clone().map(|row| row.location));
+        let location = Spread::of(found.clone().map(|row| row.location));
         Self {
             disk: truth.disk,
             arc_length: truth.arc_length,
@@ -109,9 +111,9 @@ impl Disk {
             repeats: rows.count(),
             found: found.clone().count(),
             false_alarms,
-            detection_time: Statistic::of(found.clone().map(|row| row.detection_time)),
-            delay: Statistic::of(found.clone().map(|row| row.detection_time - truth.contact_time)),
-            theta_l: Statistic::of(found.map(|row| row.theta_l)),
+            detection_time: Spread::of(found.clone().map(|row| row.detection_time)),
+            delay: Spread::of(found.clone().map(|row| row.detection_time - truth.contact_time)),
+            theta_l: Spread::of(found.map(|row| row.theta_l)),
             bias: location.mean - truth.arc_length,
             location,
         }
@@ -128,7 +130,7 @@ pub struct Table2 {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Truth {
+struct Met {
     disk: u64,
     arc_length: f64,
     contact_time: f64,
@@ -167,7 +169,7 @@ pub fn paper_disks() -> [[f64; 2]; 3] {
 pub fn paper() -> [Disk; 3] {
     let (rows, disks) = (paper_rows(), paper_disks());
     std::array::from_fn(|k| {
-        let truth = Truth { disk: k as u64 + 1, arc_length: disks[k][0], contact_time: f64::NAN };
+        let truth = Met { disk: k as u64 + 1, arc_length: disks[k][0], contact_time: f64::NAN };
         Disk::new(truth, &rows, None)
     })
 }
@@ -186,7 +188,7 @@ fn numbers<const N: usize>(text: &str) -> impl Iterator<Item = [f64; N]> {
 /// The simulated Table II; a step is one experiment, and the disks take turns.
 #[derive(Debug, Clone)]
 pub struct Table2Job {
-    plans: [(Truth, Plan, Script); 3],
+    plans: [(Met, Plan, Script); 3],
     repeats: usize,
     rows: Vec<Row>,
 }
@@ -208,7 +210,7 @@ impl Table2Job {
         Plan::new(base)?;
         let count = base.robot.disks.len();
         if count < PRESETS.len() {
-            let allowed = Allowed::Need("at least three disks, for Table II compares disks 1, 2 and 3");
+            let allowed = Allowed::Need("at least three disks are needed, because Table II compares disks 1, 2 and 3");
             let disks = Value::List(base.robot.disks.clone());
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
@@ -217,7 +219,7 @@ impl Table2Job {
             let scenario = Scenario { contact: find(name)?.scenario()?.contact, ..base.clone() };
             let plan = kept(Plan::new(&scenario)?)?;
             let script = Script::new(&plan);
-            let truth = Truth {
+            let truth = Met {
                 disk: k as u64 + 1,
                 arc_length: base.robot.disks[k],
                 contact_time: script.contact_time().unwrap_or(f64::NAN),
@@ -261,7 +263,7 @@ impl Job for Table2Job {
 }
 
 /// One run, up to its detection.
-fn experiment(plan: &Plan, script: &Script, truth: &Truth) -> Row {
+fn experiment(plan: &Plan, script: &Script, truth: &Met) -> Row {
     let settings = Settings::of(plan);
     let (mut observer, mut alarms) = (Observer::new(&settings), Alarms::new(&settings));
     let detection = script.entries(plan).find_map(|entry| {
@@ -313,10 +315,10 @@ mod tests {
 
     #[test]
     fn a_statistic_over_few_is_not_defined() {
-        let none = Statistic::of(std::iter::empty());
-        let one = Statistic::of([3.0].into_iter());
+        let none = Spread::of(std::iter::empty());
+        let one = Spread::of([3.0].into_iter());
         assert!(none.mean.is_nan() && none.deviation.is_nan() && one.deviation.is_nan());
-        let two = Statistic::of([1.0, 3.0].into_iter());
+        let two = Spread::of([1.0, 3.0].into_iter());
         assert_eq!((one.mean, two.mean, two.deviation), (3.0, 2.0, sqrt(2.0)));
     }
 }

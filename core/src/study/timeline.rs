@@ -1,5 +1,6 @@
 //! What the detectors hold against their thresholds over time, as a chart: of a log, or of any run.
 
+use super::course::{Measure, measure};
 use super::figure::thin::Thinner;
 use super::figure::words::{MILLI, millimetres, plain, robot, time};
 use crate::chart::{Axis, Chart, Panel, Role, Series, Span, Style, Vertical};
@@ -56,17 +57,19 @@ impl Timeline {
         let Self { scenario, panels, highest, ends } = self;
         let ends = ends.unwrap_or([0.0, 1.0]);
         let armed = scenario.detection.armed_from.min(ends[1]);
-        let unarmed = (armed > ends[0]).then_some(Span { name: "not armed", ends: [ends[0], armed] });
+        let unarmed = (armed > ends[0]).then_some(Span {
+            name: "not armed",
+            role: Role::Aside,
+            low: false,
+            ends: [ends[0], armed],
+        });
         let panel = |((method, values, limits), [highest, most]): ((Method, Thinner, Thinner), [f64; 2])| {
-            let (name, threshold, role, unit, shown) = match method {
-                Method::Fcd => ("||c_m − c_s||", "ξ2", Role::Sensor, "m", "mm"),
-                Method::Jfd => ("Θ", "ξ1", Role::Force, "N·m", "mN·m"),
-            };
+            let Measure { symbol, threshold, scale, si_unit, unit, role, .. } = measure(method);
             let reach = HEADROOM[1] * highest;
             let top = if most > 0.0 { reach.clamp(HEADROOM[0] * most, MOST * most) } else { reach };
             let top = if top > 0.0 { top } else { 1e-3 };
             let series = vec![
-                Series::new(name, role, Style::Line, values.finish()),
+                Series::new(symbol, role, Style::Line, values.finish()),
                 Series::new(threshold, Role::Bound, Style::Dashed, limits.finish()),
             ];
             let own = events.iter().filter(|event| event.detector == method);
@@ -77,7 +80,7 @@ impl Timeline {
                 verticals: raised.take(MOST_EVENTS).collect(),
                 ..Panel::new(
                     Axis { range: Some(ends).filter(|[from, to]| to > from), ..time() },
-                    Axis { range: Some([0.0, top]), ..Axis::new(name, unit, shown, MILLI) },
+                    Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) },
                 )
             }
         };

@@ -5,10 +5,10 @@ use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::scene::palette::Palette;
 use crate::show::ink;
-use centrode_core::chart::clip::{self, Point};
-use centrode_core::chart::layout::{Align, Form, Frame, Ink, Page, Paint, Shape, Text, layout};
+use centrode_core::chart::clip::{self, Spot};
+use centrode_core::chart::layout::{Align, Drawing, Form, Frame, Ink, Item, Page, Paint, Text, layout, over};
 use centrode_core::chart::svg::FAINT;
-use centrode_core::chart::{Chart, Map, Role};
+use centrode_core::chart::{Chart, Map, Role, Series};
 use egui::epaint::TextShape;
 use egui::{
     Align2, Color32, ColorImage, Context, Mesh, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, Vec2, pos2,
@@ -30,6 +30,12 @@ impl Place {
         rect(self.frame.data, self.origin)
     }
 
+    /// Both ends of both axes.
+    #[must_use]
+    pub fn ranges(&self) -> [[f64; 2]; 2] {
+        [self.frame.x.range(), self.frame.y.range()]
+    }
+
     /// Where a point lies.
     #[must_use]
     pub fn at(&self, point: [f64; 2]) -> Pos2 {
@@ -44,7 +50,7 @@ impl Place {
     }
 }
 
-fn pos([x, y]: Point, origin: Vec2) -> Pos2 {
+fn pos([x, y]: Spot, origin: Vec2) -> Pos2 {
     pos2(x as f32, y as f32) + origin
 }
 
@@ -59,7 +65,6 @@ pub fn color(ink: Ink, theme: &Theme) -> Color32 {
         Ink::Ground => theme.panel,
         Ink::Grid => theme.faint.gamma_multiply(0.7),
         Ink::Role(Role::Robot) => theme.robot,
-        Ink::Role(Role::Choice) => theme.accent,
         _ => {
             let [r, g, b, a] = ink::color(ink, &Palette::for_dark(theme.dark), theme.dark).to_bytes();
             Color32::from_rgba_unmultiplied(r, g, b, a)
@@ -68,7 +73,7 @@ pub fn color(ink: Ink, theme: &Theme) -> Color32 {
 }
 
 /// A map as a texture, a pixel for each cell; `soft` blends neighbours.
-pub fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> TextureHandle {
+fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> TextureHandle {
     let (columns, rows) = (map.columns, map.rows());
     // Rows from the top of the page down, columns from its left.
     let (turned, rising) = (map.x[0] > map.x[1], map.y[0] < map.y[1]);
@@ -87,27 +92,73 @@ pub fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) 
     ctx.load_texture(name, image, options)
 }
 
-/// Paints the panels of a chart; `maps` has the texture of each panel that holds a map, by the panel's place.
-pub fn chart(
-    painter: &Painter,
-    theme: &Theme,
-    space: Rect,
-    chart: &Chart,
-    text: f32,
-    maps: &[TextureHandle],
-) -> Vec<Place> {
-    let size = [f64::from(space.width()), f64::from(space.height())];
-    let drawing = layout(chart, &Page { size, text: text.into(), words: false });
-    let brush = Brush { painter, theme, origin: space.min.to_vec2(), maps };
-    drawing.shapes.iter().for_each(|shape| brush.shape(shape));
-    drawing.frames.into_iter().map(|frame| Place { frame, origin: brush.origin }).collect()
+/// A chart as it was last shown: kept while what it was made of, its key, and the page stay the same.
+pub struct Picture<K> {
+    key: K,
+    dark: bool,
+    chart: Chart,
+    maps: Vec<Option<TextureHandle>>,
+    laid: Option<(Page, Drawing)>,
+}
+
+impl<K: PartialEq> Picture<K> {
+    /// The picture that is kept, or another where its key or the theme differs; `soft` blends neighbours in maps.
+    pub fn keep<'a>(
+        kept: &'a mut Option<Self>,
+        ctx: &Context,
+        theme: &Theme,
+        (key, soft): (K, bool),
+        make: impl FnOnce() -> Chart,
+    ) -> &'a mut Self {
+        let same = kept.take().filter(|picture| picture.key == key && picture.dark == theme.dark);
+        kept.insert(same.unwrap_or_else(|| {
+            let chart = make();
+            let map = |panel: &centrode_core::chart::Panel| {
+                panel.map.as_ref().map(|map| texture(ctx, &panel.title, map, theme, soft))
+            };
+            let maps = chart.panels.iter().map(map).collect();
+            Self { key, dark: theme.dark, chart, maps, laid: None }
+        }))
+    }
+
+    /// The chart.
+    #[must_use]
+    pub fn chart(&self) -> &Chart {
+        &self.chart
+    }
+
+    /// Paints it on a page of the size of `space`; gives the places of its panels.
+    pub fn show(&mut self, painter: &Painter, theme: &Theme, space: Rect, page: Page) -> Vec<Place> {
+        let page = Page { size: [space.width().into(), space.height().into()], ..page };
+        let (_, drawing) = match self.laid.take().filter(|(was, _)| *was == page) {
+            Some(laid) => self.laid.insert(laid),
+            None => self.laid.insert((page, layout(&self.chart, &page))),
+        };
+        let brush = Brush { painter, theme, origin: space.min.to_vec2(), maps: &self.maps };
+        drawing.shapes.iter().for_each(|shape| brush.shape(shape));
+        drawing.frames.iter().map(|&frame| Place { frame, origin: brush.origin }).collect()
+    }
+
+    /// Paints what moves over a panel: series in its place.
+    pub fn over(&self, painter: &Painter, theme: &Theme, (panel, place): (usize, &Place), series: &[Series]) {
+        let Some((page, _)) = &self.laid else { return };
+        let on_map = self.maps.get(panel).is_some_and(Option::is_some);
+        let brush = Brush { painter, theme, origin: place.origin, maps: &[] };
+        over(&place.frame, series, page, on_map).iter().for_each(|shape| brush.shape(shape));
+    }
+}
+
+/// A page of the interface with a size of text, points.
+#[must_use]
+pub fn page(text: f32) -> Page {
+    Page::screen([0.0; 2], text.into())
 }
 
 struct Brush<'a> {
     painter: &'a Painter,
     theme: &'a Theme,
     origin: Vec2,
-    maps: &'a [TextureHandle],
+    maps: &'a [Option<TextureHandle>],
 }
 
 impl Brush<'_> {
@@ -115,26 +166,26 @@ impl Brush<'_> {
         color(paint.ink, self.theme).gamma_multiply(paint.opacity as f32)
     }
 
-    fn pos(&self, point: Point) -> Pos2 {
+    fn pos(&self, point: Spot) -> Pos2 {
         pos(point, self.origin)
     }
 
-    fn shape(&self, shape: &Shape) {
+    fn shape(&self, shape: &Item) {
         let painter = self.painter;
         match shape {
-            Shape::Fill(place, paint) => {
+            Item::Fill(place, paint) => {
                 painter.rect_filled(rect(*place, self.origin), 0.0, self.color(*paint));
             }
-            Shape::Map(place, panel) => {
+            Item::Map(place, panel) => {
                 let place = rect(*place, self.origin);
                 painter.rect_filled(place, 0.0, self.theme.raised);
-                if let Some(texture) = self.maps.get(*panel) {
+                if let Some(Some(texture)) = self.maps.get(*panel) {
                     let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
                     painter.image(texture.id(), place, whole, Color32::WHITE);
                 }
             }
-            Shape::Band(edges, paint) => self.band(edges, self.color(*paint)),
-            Shape::Line(points, paint, wide, dash) => {
+            Item::Band(edges, paint) => self.band(edges, self.color(*paint)),
+            Item::Line(points, paint, wide, dash) => {
                 let stroke = Stroke::new((*wide as f32).max(1.0), self.color(*paint));
                 let points = self.sharp(points.iter().map(|point| self.pos(*point)).collect());
                 match dash {
@@ -144,8 +195,8 @@ impl Brush<'_> {
                     None => drop(painter.line(points, stroke)),
                 }
             }
-            Shape::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
-            Shape::Text(text) => self.text(text),
+            Item::Mark(at, form, radius, paint, edge) => self.mark(*at, *form, *radius, *paint, *edge),
+            Item::Text(text) => self.text(text),
         }
     }
 
@@ -163,7 +214,7 @@ impl Brush<'_> {
         points
     }
 
-    fn band(&self, edges: &[[Point; 2]], color: Color32) {
+    fn band(&self, edges: &[[Spot; 2]], color: Color32) {
         let mut mesh = Mesh::default();
         for (k, edge) in edges.iter().enumerate() {
             edge.iter().for_each(|point| mesh.colored_vertex(self.pos(*point), color));
@@ -176,15 +227,15 @@ impl Brush<'_> {
         self.painter.add(egui::Shape::mesh(mesh));
     }
 
-    fn mark(&self, at: Point, form: Form, radius: f64, paint: Paint, edge: Ink) {
+    fn mark(&self, at: Spot, form: Form, radius: f64, paint: Paint, edge: Ink) {
         let (fill, edge) = (self.color(paint), color(edge, self.theme));
         let wide = (radius * form.stroke()) as f32;
         let (place, r) = (self.pos(at), radius as f32);
         let painter = self.painter;
         match form {
-            Form::Triangle => {
-                let corners = form.triangle(at, radius).map(|corner| self.pos(corner));
-                painter.add(egui::Shape::convex_polygon(corners.to_vec(), fill, Stroke::new(0.5 * wide, edge)));
+            Form::Triangle | Form::Diamond => {
+                let corners = form.corners(at, radius).into_iter().map(|corner| self.pos(corner)).collect();
+                painter.add(egui::Shape::convex_polygon(corners, fill, Stroke::new(0.5 * wide, edge)));
             }
             Form::Circle => drop(painter.circle(place, r, edge, Stroke::new(wide, fill))),
             Form::Dot => drop(painter.circle(place, r, fill, Stroke::new(wide, edge))),
@@ -214,5 +265,44 @@ impl Brush<'_> {
             let place = Align2::LEFT_CENTER.anchor_size(at - vec2(along, 0.0), vec2(wide, high));
             self.painter.galley(place.min, galley, ink);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::chart::{Axis, Panel};
+
+    #[test]
+    fn a_picture_is_kept_until_its_key_or_the_theme_changes() {
+        let ctx = Context::default();
+        let axis = |name| Axis::new(name, "1", "1", 1.0);
+        let map = Map {
+            unit: "s",
+            scale: 1.0,
+            columns: 2,
+            values: vec![0.0, 1.0],
+            faint: vec![false, true],
+            x: [0.0, 2.0],
+            y: [0.0, 1.0],
+            ends: [0.0, 1.0],
+            level: None,
+            line: Vec::new(),
+        };
+        let chart = || {
+            let panel = Panel { map: Some(map.clone()), ..Panel::new(axis("x"), axis("y")) };
+            Chart { panels: vec![panel], ..Chart::default() }
+        };
+        let mut kept: Option<Picture<u32>> = None;
+        let mut image = |key: u32, dark: bool| {
+            let picture = Picture::keep(&mut kept, &ctx, &Theme::new(dark), (key, false), chart);
+            picture.maps[0].as_ref().map(TextureHandle::id)
+        };
+        let light = image(1, false);
+        assert!(light.is_some() && image(1, false) == light, "kept");
+        // What stands back in a map is mixed with the theme's ground.
+        let dark = image(1, true);
+        assert_ne!(dark, light);
+        assert_ne!(image(2, true), dark);
     }
 }

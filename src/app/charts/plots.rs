@@ -1,25 +1,33 @@
-//! Live plots over one time axis: the centrode deviation, the joint force deviation, the tangent angle.
+//! Live plots over one time axis: what each detector judges, and the tangent angle.
 //!
+//! The core lays them out as it does every chart; what a person moves lies over that and is painted anew in each frame.
 //! Thresholds are lines that can be dragged, typed and switched off; the playback position is scrubbed anywhere else.
 
 mod axis;
 mod frame;
 mod marks;
 mod panels;
-mod range;
 mod threshold;
 
-pub use axis::{Axis, Steps, Tick};
+pub use axis::{Axis, Steps};
 
+use crate::app::charts::paint::{Picture, Place, page};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use centrode_core::chart::layout::Page;
+use centrode_core::chart::{Chart, Series};
+use centrode_core::detect::Method;
 use centrode_core::run::Run;
-use egui::{Rect, Ui, Vec2, pos2, vec2};
-use frame::Frame;
+use centrode_core::study::course;
+use egui::{Painter, Rect, Ui, Vec2, pos2, vec2};
+use frame::{Frame, GUTTER, RIGHT, SMALL};
+use std::collections::BTreeMap;
 
 /// From this width on the plots stand side by side.
 const SIDE_BY_SIDE: f32 = 780.0;
-/// Least heights of the three plots when stacked, in points.
+/// Plots: one for each detector, and the tangent angle.
+const COUNT: usize = Method::ALL.len() + 1;
+/// Least heights of the plots when stacked, in points: of the first, of the others, and of the last.
 const LEAST: [f32; 3] = [128.0, 112.0, 84.0];
 /// Least height of the plots side by side.
 const LEAST_ROW: f32 = 120.0;
@@ -27,19 +35,26 @@ const LEAST_ROW: f32 = 120.0;
 const GAP: f32 = 10.0;
 
 /// What the plots remember between frames; nothing of it is an input of the experiment.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Default)]
 pub struct PlotState {
     /// Time under the pointer, s: shown in all plots.
     hover: Option<f64>,
-    /// ξ2 (m) and ξ1 (N·m) as they are when switched on again; the page remembers them, not the plots.
-    pub otherwise: [f64; 2],
-    /// Tops of the deviation plots, held while a threshold is being moved.
-    held: [Option<f64>; 2],
+    /// Thresholds as they are when switched on again, SI; the page remembers them, not the plots.
+    pub otherwise: BTreeMap<Method, f64>,
+    /// Tops of the detectors' plots, SI, held while a threshold is being moved.
+    held: BTreeMap<Method, f64>,
+    /// How high the detectors' plots reach, SI, and for which run and threshold.
+    tops: BTreeMap<Method, ((u64, u64), f64)>,
+    /// The plots as they were last laid out.
+    pictures: [Option<Picture<Key>>; COUNT],
     /// Distance from the pointer to what it holds when a drag starts, points.
     grip: f32,
     /// What a touch that began on a plot turned out to be.
     touch: Touch,
 }
+
+/// What a plot is made of: the run's version, its top, and whether its times have no numbers.
+type Key = (u64, Option<u64>, bool);
 
 /// A touch may scrub, or scroll the page.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -50,17 +65,17 @@ enum Touch {
     Scrolls,
 }
 
-/// Shows the plots in the space that is left; `cursor` is the playback position, s.
-pub fn plots(ui: &mut Ui, run: &Run, cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
+/// Shows the plots in the space that is left. `version` is another for every other run; `cursor` is the playback position, s.
+pub fn plots(ui: &mut Ui, (run, version): (&Run, u64), cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
     let space = ui.available_size();
     let beside = space.x >= SIDE_BY_SIDE && !(space.y.is_finite() && space.y > 0.9 * space.x);
-    let least = if beside { LEAST_ROW } else { LEAST.iter().sum::<f32>() + 2.0 * GAP };
+    let least = if beside { LEAST_ROW } else { least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP };
     let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
     if space.y < least {
         let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);
-        area.show(ui, |ui| in_place(ui, size, beside, run, cursor, state, out));
+        area.show(ui, |ui| in_place(ui, size, beside, (run, version), cursor, state, out));
     } else {
-        in_place(ui, size, beside, run, cursor, state, out);
+        in_place(ui, size, beside, (run, version), cursor, state, out);
     }
 }
 
@@ -68,7 +83,7 @@ fn in_place(
     ui: &mut Ui,
     size: Vec2,
     beside: bool,
-    run: &Run,
+    (run, version): (&Run, u64),
     cursor: f64,
     state: &mut PlotState,
     out: &mut Vec<Command>,
@@ -79,14 +94,57 @@ fn in_place(
         return;
     }
     let hovered = state.hover.take();
-    let cursor = cursor.clamp(0.0, end(run));
-    for (which, rect) in layout(area, beside).into_iter().enumerate() {
-        let frame = Frame::new(rect, run, beside || which == 2, theme, ui.pixels_per_point());
-        let mut view = View { run, cursor, hovered, frame, which, state: &mut *state, out: &mut *out };
-        match which {
-            0 => panels::deviation(ui, &mut view),
-            1 => panels::force(ui, &mut view),
-            _ => panels::angle(ui, &mut view),
+    let cursor = cursor.clamp(0.0, course::end(run));
+    let methods = Method::ALL.iter().copied().map(Some).chain([None]);
+    for ((which, rect), method) in layout(area, beside).into_iter().enumerate().zip(methods) {
+        let top = method.map(|method| top(state, (run, version), method));
+        let bare = !beside && which + 1 < COUNT;
+        let make = || {
+            let mut panel = match (method, top) {
+                (Some(method), Some(top)) => course::statistic(run, method, top),
+                _ => course::angle(run),
+            };
+            panel.x.bare = bare;
+            Chart { panels: vec![panel], ..Chart::default() }
+        };
+        let key = (version, top.map(f64::to_bits), bare);
+        let mut kept = state.pictures[which].take();
+        let picture = Picture::keep(&mut kept, ui.ctx(), &theme, (key, false), make);
+        let sides = Some([GUTTER, RIGHT].map(f64::from));
+        let page = Page { sides, pixel: f64::from(1.0 / ui.pixels_per_point()), ..page(SMALL) };
+        let places = picture.show(ui.painter(), &theme, Frame::below_title(rect), page);
+        if let Some(place) = places.into_iter().next() {
+            let frame = Frame::new(
+                rect,
+                &place,
+                method.map_or(180.0 / std::f64::consts::PI, |m| course::measure(m).scale),
+                theme,
+            );
+            let (state, out) = (&mut *state, &mut *out);
+            let mut view = View { run, cursor, hovered, frame, place, picture, which, top, state, out };
+            match method {
+                Some(method) => panels::judging(ui, &mut view, method),
+                None => panels::angle(ui, &mut view),
+            }
+        }
+        state.pictures[which] = kept;
+    }
+}
+
+/// How high the plot of a detector reaches, SI: as it did while its threshold is being moved.
+fn top(state: &mut PlotState, (run, version): (&Run, u64), method: Method) -> f64 {
+    if let Some(&held) = state.held.get(&method) {
+        return held;
+    }
+    let otherwise = state.otherwise.get(&method).copied().unwrap_or(0.0);
+    let threshold = panels::threshold(method, run.plan.scenario(), otherwise);
+    let key = (version, threshold.to_bits());
+    match state.tops.get(&method) {
+        Some((of, top)) if *of == key => *top,
+        _ => {
+            let top = course::top(run, method, threshold);
+            state.tops.insert(method, (key, top));
+            top
         }
     }
 }
@@ -98,29 +156,61 @@ struct View<'a> {
     /// Time under the pointer in the frame before, s.
     hovered: Option<f64>,
     frame: Frame,
-    /// 0 deviation, 1 force, 2 angle.
+    place: Place,
+    picture: &'a Picture<Key>,
+    /// Its place among the plots.
     which: usize,
+    /// How high it reaches, SI, where it is a detector's.
+    top: Option<f64>,
     state: &'a mut PlotState,
     out: &'a mut Vec<Command>,
 }
 
-/// Time of the last sample, s.
-fn end(run: &Run) -> f64 {
-    run.sample(run.len() - 1).time
+impl View<'_> {
+    /// The threshold of a detector when it is switched on again, SI.
+    fn otherwise(&self, method: Method) -> f64 {
+        self.state.otherwise.get(&method).copied().unwrap_or(0.0)
+    }
+
+    /// Keeps the plot of a detector as high as it is, or no longer.
+    fn hold(&mut self, method: Method, moving: bool) {
+        match self.top.filter(|_| moving) {
+            Some(top) => drop(self.state.held.insert(method, top)),
+            None => drop(self.state.held.remove(&method)),
+        }
+    }
+
+    /// Whether the last curve, or what of it stands back, has any value.
+    fn has_values(&self) -> bool {
+        let panel = self.picture.chart().panels.first();
+        let mut last = panel.into_iter().flat_map(|panel| panel.series.iter().rev().take(2));
+        last.any(|series| series.points.iter().any(|[_, value]| value.is_finite()))
+    }
+
+    /// Paints marks over the plot.
+    fn over(&self, painter: &Painter, series: &[Series]) {
+        self.picture.over(painter, &self.frame.theme, (0, &self.place), series);
+    }
 }
 
-/// Places of the three plots: a row, or a column in which the first is highest.
-fn layout(area: Rect, beside: bool) -> [Rect; 3] {
+/// Least heights of the plots when stacked, points.
+fn least() -> [f32; COUNT] {
+    std::array::from_fn(|k| LEAST[if k == 0 { 0 } else { 1 + usize::from(k + 1 == COUNT) }])
+}
+
+/// Places of the plots: a row, or a column in which the first is highest.
+fn layout(area: Rect, beside: bool) -> [Rect; COUNT] {
+    let gaps = (COUNT - 1) as f32 * GAP;
     if beside {
-        let width = (area.width() - 2.0 * GAP) / 3.0;
+        let width = (area.width() - gaps) / COUNT as f32;
         std::array::from_fn(|i| {
             Rect::from_min_size(pos2(area.left() + i as f32 * (width + GAP), area.top()), vec2(width, area.height()))
         })
     } else {
-        let total: f32 = LEAST.iter().sum();
-        let usable = area.height() - 2.0 * GAP;
+        let total: f32 = least().iter().sum();
+        let usable = area.height() - gaps;
         let mut top = area.top();
-        LEAST.map(|least| {
+        least().map(|least| {
             let height = usable * least / total;
             let rect = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
             top += height + GAP;

@@ -11,7 +11,7 @@ use centrode_core::scenario::keys::quantity::Unit;
 pub fn parse(quantity: Quantity, text: &str) -> Result<f64, String> {
     let text = text.trim();
     if grouped(text) {
-        return Err(format!("“{}” may be thousands or decimals: leave the comma out, or write a point", shorten(text)));
+        return Err(format!("“{}” is ambiguous: leave the comma out, or write a decimal point", shorten(text)));
     }
     let (number, unit) = split(text).ok_or_else(|| format!("“{}” is not a number", shorten(text)))?;
     if !number.is_finite() {
@@ -136,7 +136,7 @@ mod tests {
     fn a_comma_before_three_digits_is_not_guessed_at() {
         for text in ["1,000", "−1,500 mm", "12,345", "1,000 µm", "1,000e3"] {
             let message = parse(Quantity::Length, text).expect_err(text);
-            assert!(message.contains("may be thousands or decimals") && message.chars().count() < 90, "{message}");
+            assert!(message.contains("is ambiguous") && message.chars().count() < 90, "{message}");
         }
         for (text, value) in
             [("1,5", 1.5), ("1,00", 1.0), ("1,0000", 1.0), ("0,007", 0.007), ("-0,125", -0.125), (",125", 0.125)]

@@ -1,7 +1,7 @@
 //! A figure of the paper, as it is made here.
 
 use crate::app::charts::notation::{self, job, number};
-use crate::app::charts::paint::{self, Place};
+use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use crate::app::widgets::text::rich;
@@ -20,7 +20,13 @@ const ASIDE: f32 = 250.0;
 const REACH: f32 = 28.0;
 
 /// Shows a figure with its legend, its caption, and the command that writes it to a file.
-pub fn figure(ui: &mut Ui, rect: Rect, chart: &Chart, inputs: &Inputs<'_>) {
+pub fn figure(
+    ui: &mut Ui,
+    rect: Rect,
+    (chart, version): (&Chart, u64),
+    inputs: &Inputs<'_>,
+    kept: &mut Option<Picture<u64>>,
+) {
     let theme = Theme::of(ui);
     let title = ui.painter().layout_job(strong(&chart.title, 15.0, theme.ink, rect.width()));
     let height = title.size().y;
@@ -35,7 +41,8 @@ pub fn figure(ui: &mut Ui, rect: Rect, chart: &Chart, inputs: &Inputs<'_>) {
         below.with_max_y(words(ui, rect, chart, inputs, &theme) - 8.0)
     };
     let painter = ui.painter().clone();
-    let places = paint::chart(&painter, &theme, space, chart, TEXT, &[]);
+    let picture = Picture::keep(kept, ui.ctx(), &theme, (version, false), || chart.clone());
+    let places = picture.show(&painter, &theme, space, paint::page(TEXT));
     let (Some(place), Some(panel)) = (places.first(), chart.panels.first()) else { return };
     let response = ui.interact(place.data(), ui.make_persistent_id("figure"), Sense::hover());
     let label = format!("{}. {}", chart.title, chart.caption);

@@ -1,43 +1,38 @@
 //! Which contacts are detectable: two maps over bend and place of the contact.
 
 use crate::app::charts::notation::{self, job, number};
-use crate::app::charts::paint::{self, Place};
+use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::command::Command;
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
-use centrode_core::study::map::Map;
-use centrode_core::study::map::chart::{Kind, chart};
-use egui::{CursorIcon, Label, Rect, Sense, TextureHandle, Ui};
+use centrode_core::scenario::{Contact, Place as At, Scenario};
+use centrode_core::study::map::ContactMap;
+use centrode_core::study::map::chart::{Kind, target, without_contact};
+use egui::{CursorIcon, Label, Rect, Sense, Ui};
 
 /// Size of the chart's text, points.
 const TEXT: f32 = 11.5;
 /// Decimals of both thresholds.
 const DECIMALS: usize = 1;
 
-/// Both maps as images, kept while they stay the same.
-pub struct Picture {
-    version: u64,
-    maps: Vec<TextureHandle>,
-}
+/// What the picture is made of: the map's version, and the scenario without the contact, which moves over it.
+pub type Key = (u64, Scenario);
 
 /// Shows both maps; a click sets the contact.
 pub fn map(
     ui: &mut Ui,
     rect: Rect,
-    shown: &Map,
+    shown: &ContactMap,
     version: u64,
     inputs: &Inputs<'_>,
-    kept: &mut Option<Picture>,
+    kept: &mut Option<Picture<Key>>,
     out: &mut Vec<Command>,
 ) {
     let theme = Theme::of(ui);
-    let chart = chart(shown, &inputs.run.plan);
-    if kept.as_ref().is_none_or(|picture| picture.version != version) {
-        let named = chart.panels.iter().filter_map(|panel| Some((&panel.title, panel.map.as_ref()?)));
-        let maps = named.map(|(name, map)| paint::texture(ui.ctx(), name, map, &theme, true)).collect();
-        *kept = Some(Picture { version, maps });
-    }
-    let Some(picture) = kept else { return };
+    let plan = &inputs.run.plan;
+    let nowhere = Contact { place: At::Nowhere, ..Contact::default() };
+    let key = (version, Scenario { contact: nowhere, ..plan.scenario().clone() });
+    let picture = Picture::keep(kept, ui.ctx(), &theme, (key, true), || without_contact(shown, plan));
     let mut words = job(&summary(shown, inputs), 12.5, theme.ink);
     words.wrap.max_width = rect.width();
     let mut hint = job(
@@ -56,14 +51,16 @@ pub fn map(
 
     let space = rect.with_max_y(foot - 8.0);
     let painter = ui.painter().clone();
-    let places = paint::chart(&painter, &theme, space, &chart, TEXT, &picture.maps);
-    for (kind, place) in Kind::ALL.into_iter().zip(&places) {
+    let places = picture.show(&painter, &theme, space, paint::page(TEXT));
+    let contact: Vec<_> = target(plan).into_iter().collect();
+    for (k, (kind, place)) in Kind::ALL.into_iter().zip(&places).enumerate() {
+        picture.over(&painter, &theme, (k, place), &contact);
         touch(ui, place, kind, shown, out, &theme);
     }
 }
 
 /// The values where the contact is, in words.
-fn summary(map: &Map, inputs: &Inputs<'_>) -> String {
+fn summary(map: &ContactMap, inputs: &Inputs<'_>) -> String {
     let plan = &inputs.run.plan;
     let Some(contact) = plan.contact() else {
         return "There is no contact now: click where it should be.".into();
@@ -91,7 +88,7 @@ fn short(kind: Kind) -> &'static str {
 }
 
 /// A click or a drag puts the contact where the pointer is; without a button the pointer reads the map.
-fn touch(ui: &mut Ui, place: &Place, kind: Kind, map: &Map, out: &mut Vec<Command>, theme: &Theme) {
+fn touch(ui: &mut Ui, place: &Place, kind: Kind, map: &ContactMap, out: &mut Vec<Command>, theme: &Theme) {
     let data = place.data();
     let response = ui.interact(data, ui.make_persistent_id(short(kind)), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);

@@ -2,10 +2,9 @@
 
 use crate::app::stages::stage::Stage;
 use centrode_core::chart::Chart;
-use centrode_core::scenario::Scenario;
-use centrode_core::scenario::{Contact, Place};
+use centrode_core::scenario::{Contact, Place, Scenario, ScenarioError};
 use centrode_core::study::figure::FigureJob;
-use centrode_core::study::map::{Map, MapJob};
+use centrode_core::study::map::{ContactMap, MapJob};
 use centrode_core::study::table2::{Row, Table2, Table2Job};
 use centrode_core::study::{Job, Progress};
 
@@ -24,7 +23,7 @@ pub enum Found {
     /// Both tables, and the experiments behind the simulated one.
     Table(Box<Table2>, Vec<Row>),
     /// The map.
-    Map(Map),
+    Map(ContactMap),
 }
 
 #[derive(Debug)]
@@ -35,14 +34,14 @@ enum Work {
 }
 
 impl Work {
-    fn new(stage: Stage, scenario: &Scenario) -> Option<Result<Self, String>> {
+    fn new(stage: Stage, scenario: &Scenario) -> Option<Result<Self, ScenarioError>> {
         let job = match (stage, stage.figure()) {
             (_, Some(number)) => FigureJob::new(number, scenario).map(Work::Figure),
             (Stage::Table2, _) => Table2Job::new(scenario, REPEATS).map(|job| Work::Table(Box::new(job))),
             (Stage::Map, _) => MapJob::new(scenario, CELLS.0, CELLS.1).map(|job| Work::Map(Box::new(job))),
             _ => return None,
         };
-        Some(job.map_err(|refused| refused.to_string()))
+        Some(job)
     }
 
     fn job(&mut self) -> &mut dyn Job {
@@ -78,7 +77,7 @@ pub struct Studies {
     found: Option<Found>,
     /// Counts what has been found, so that pictures of it can be kept.
     version: u64,
-    refused: Option<String>,
+    refused: Option<ScenarioError>,
 }
 
 impl Studies {
@@ -137,8 +136,8 @@ impl Studies {
 
     /// Why there is nothing to show.
     #[must_use]
-    pub fn refused(&self) -> Option<&str> {
-        self.refused.as_deref()
+    pub fn refused(&self) -> Option<&ScenarioError> {
+        self.refused.as_ref()
     }
 }
 
@@ -187,6 +186,7 @@ mod tests {
         scenario.contact.place = Place::disk(1);
         studies.update(Stage::Table2, &scenario);
         assert!(!studies.work());
-        assert!(studies.refused().is_some_and(|why| why.contains("robot.disks")), "{:?}", studies.refused());
+        let why = studies.refused().map(ToString::to_string).unwrap_or_default();
+        assert!(why.contains("robot.disks"), "{why}");
     }
 }

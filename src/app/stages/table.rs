@@ -3,9 +3,10 @@
 mod estimates;
 
 use crate::app::charts::notation::{job, number};
+use crate::app::charts::paint::Picture;
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use centrode_core::study::table2::{Disk, Row, Statistic, Table2};
+use centrode_core::study::table2::{Disk, Row, Spread, Table2};
 use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
 /// From this width on both stand side by side.
@@ -21,7 +22,7 @@ struct Column {
     cell: fn(&Disk) -> String,
 }
 
-fn both(value: &Statistic, scale: f64, decimals: usize) -> String {
+fn both(value: &Spread, scale: f64, decimals: usize) -> String {
     match (value.mean.is_nan(), value.deviation.is_nan()) {
         (true, _) => "–".into(),
         (false, true) => number(value.mean * scale, decimals),
@@ -52,7 +53,7 @@ const COLUMNS: [Column; 6] = [
 ];
 
 /// Shows both tables, and the estimates of `rows` (the simulated experiments) against the truth.
-pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2, rows: &[Row]) {
+pub fn table(ui: &mut Ui, rect: Rect, (shown, rows, version): (&Table2, &[Row], u64), kept: &mut Option<Picture<u64>>) {
     let theme = Theme::of(ui);
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("table"));
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
@@ -90,7 +91,7 @@ pub fn table(ui: &mut Ui, rect: Rect, shown: &Table2, rows: &[Row]) {
         let used = ui.cursor().top() - ui.min_rect().top() + ui.painter().layout_job(said.clone()).size().y + 16.0;
         let height = (rect.height() - used).max(estimates::LEAST);
         let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
-        estimates::estimates(ui, place, shown, rows);
+        estimates::estimates(ui, place, (shown, rows, version), kept);
         ui.add_space(8.0);
         ui.add(Label::new(said).wrap());
     });

@@ -1,9 +1,11 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
-use centrode_core::scenario::{Place, Scenario, Threshold, Thresholds};
+use centrode_core::detect::Method;
+use centrode_core::scenario::overrides::whole;
+use centrode_core::scenario::{Override, Place, Scenario, ScenarioError, Threshold, Thresholds};
 use centrode_core::study::tuning::remote::{Answer, Request};
 use centrode_core::study::tuning::watch::Rule;
-use centrode_core::study::tuning::{Point, Spec, Study, xi1_setting};
+use centrode_core::study::tuning::{Point, Spec, Study};
 use centrode_core::study::{Job, Progress};
 use serde_json::{Value, json};
 
@@ -48,15 +50,17 @@ pub struct Tuner {
     /// What it was made for; none while nobody looks.
     inputs: Option<(Scenario, usize)>,
     study: Option<(Study, Cells)>,
-    /// What is shown while the study has hardly begun.
+    /// What is shown of a rule of which the study has hardly begun.
     before: Option<(Study, Cells)>,
     request: u32,
     asked: bool,
     held: bool,
     version: u64,
-    refused: Option<String>,
-    /// ξ2 that is set, m. No part of the study, which judges every run by a whole row of thresholds: moving it costs no run.
-    xi2: Option<f64>,
+    refused: Option<ScenarioError>,
+    /// The thresholds that are set, which may be on their way while the study is one of those before.
+    thresholds: Thresholds,
+    /// Studies begun.
+    begun: u64,
     /// Why the helper was given up.
     trouble: Option<String>,
 }
@@ -75,42 +79,49 @@ impl Tuner {
             held: false,
             version: 0,
             refused: None,
-            xi2: None,
+            thresholds: Thresholds::default(),
+            begun: 0,
             trouble: None,
         }
     }
 
     /// Keeps the study up with what is set; with no scenario, nobody looks and nothing is made.
-    pub fn update(&mut self, scenario: Option<&Scenario>, repeats: usize) {
+    ///
+    /// The study judges every run by a whole row of thresholds: moving one costs no run of the rules whose own it is. Those that
+    /// hold it beside another, either and both, are counted anew once it is no longer on its way (`moving`).
+    pub fn update(&mut self, scenario: Option<&Scenario>, repeats: usize, moving: bool) {
         let Some(scenario) = scenario else {
             if self.inputs.take().is_some() {
+                self.refused = None;
                 self.rest();
             }
             return;
         };
-        let xi2 = scenario.detection.xi2.value();
-        if self.xi2 != xi2 {
-            self.xi2 = xi2;
+        if self.thresholds != scenario.detection {
+            self.thresholds = scenario.detection.clone();
             self.version += 1;
         }
         let mut scenario = scenario.clone();
         // A study counts first alarms: what ends an event does not matter to it.
         let Thresholds { release, hold, .. } = Thresholds::default();
         scenario.detection = Thresholds { xi2: Threshold::OFF, release, hold, ..scenario.detection };
-        if self.inputs.as_ref().is_some_and(|(was, count)| *was == scenario && *count == repeats) {
+        if let Some((was, count)) = &self.inputs
+            && *count == repeats
+            && (*was == scenario || moving && differ_in_thresholds(was, &scenario))
+        {
             return;
         }
         // Whoever comes back finds a study held as it was left; a new one begins.
         let back = self.inputs.replace((scenario.clone(), repeats)).is_none();
         self.held &= back;
-        let (spec, cells) = spec(&scenario, repeats);
         let old = self.study.take();
-        match Study::new(spec) {
-            Ok(mut study) => {
-                if let Some((old, _)) = &old {
-                    study.adopt(old);
+        let made = spec(&scenario, repeats).and_then(|(spec, cells)| Ok((Study::new(spec)?, cells)));
+        match made {
+            Ok((mut study, cells)) => {
+                for (known, _) in old.iter().chain(&self.before) {
+                    study.adopt(known);
                 }
-                if is_young(&study) {
+                if Rule::ALL.iter().any(|&rule| is_young(&study, rule)) {
                     self.before = self.before.take().or(old);
                 } else {
                     self.before = None;
@@ -120,9 +131,10 @@ impl Tuner {
             }
             Err(refused) => {
                 self.before = None;
-                self.refused = Some(refused.to_string());
+                self.refused = Some(refused);
             }
         }
+        self.begun += 1;
         self.version += 1;
         self.rest();
     }
@@ -190,7 +202,7 @@ impl Tuner {
         }
         if study.progress() != before {
             self.version += 1;
-            if !is_young(study) {
+            if !Rule::ALL.iter().any(|&rule| is_young(study, rule)) {
                 self.before = None;
             }
         }
@@ -210,10 +222,24 @@ impl Tuner {
         self.version += 1;
     }
 
-    /// What there is to see, what its cells are, and a number that changes with both.
+    /// What there is to see of a rule, what its cells are, and a number that changes with both.
     #[must_use]
-    pub fn shown(&self) -> Option<(&Study, &Cells, u64)> {
-        self.before.as_ref().or(self.study.as_ref()).map(|(study, cells)| (study, cells, self.version))
+    pub fn shown(&self, rule: Rule) -> Option<(&Study, &Cells, u64)> {
+        let young = self.study.as_ref().is_none_or(|(study, _)| is_young(study, rule));
+        let before = self.before.as_ref().filter(|_| young);
+        before.or(self.study.as_ref()).map(|(study, cells)| (study, cells, self.version))
+    }
+
+    /// What all thresholds of a rule come to; empty where there is nothing to see.
+    #[must_use]
+    pub fn curve(&self, rule: Rule) -> Vec<Point> {
+        self.shown(rule).map_or_else(Vec::new, |(study, ..)| study.curve(0, rule))
+    }
+
+    /// Studies begun so far.
+    #[must_use]
+    pub fn begun(&self) -> u64 {
+        self.begun
     }
 
     /// How far the study is; none when nothing is left, nobody looks or it is held.
@@ -243,8 +269,8 @@ impl Tuner {
 
     /// Why there is nothing to see.
     #[must_use]
-    pub fn refused(&self) -> Option<&str> {
-        self.refused.as_deref()
+    pub fn refused(&self) -> Option<&ScenarioError> {
+        self.refused.as_ref()
     }
 
     /// Why the helper was given up, if it was.
@@ -253,61 +279,85 @@ impl Tuner {
         self.trouble.as_deref()
     }
 
-    /// The threshold of a method that is set, m, N·m, or k; none while it is switched off.
+    /// The threshold of a rule that is set, m, N·m, or k; none while it is switched off.
     #[must_use]
-    pub fn setting(&self, method: Rule) -> Option<f64> {
-        let (study, _, _) = self.shown()?;
-        if method == Rule::Jfd { xi1_setting(&study.cells()[0].scenario) } else { self.xi2 }
+    pub fn setting(&self, rule: Rule) -> Option<f64> {
+        let (study, ..) = self.shown(rule)?;
+        let counted = &study.spec().scenario.detection;
+        // A study of before ξ1 changed its kind has levels of the other kind.
+        let alike = self.thresholds.xi1_rule == counted.xi1_rule || rule.swept() != Method::Jfd;
+        rule.swept().setting(if alike { &self.thresholds } else { counted })
     }
 
     /// The level whose counts stand for the threshold that is set: the nearest one.
     #[must_use]
-    pub fn level(&self, method: Rule) -> Option<usize> {
-        let (study, _, _) = self.shown()?;
-        let (setting, levels) = (self.setting(method)?, study.levels(0, method));
+    pub fn level(&self, rule: Rule) -> Option<usize> {
+        let (study, ..) = self.shown(rule)?;
+        let (setting, levels) = (self.setting(rule)?, study.levels(0, rule));
         let away = |level: &usize| (levels[*level] - setting).abs();
         (0..levels.len()).min_by(|a, b| away(a).total_cmp(&away(b)))
     }
 
     /// What the thresholds that are set come to; between two levels, what the nearest comes to.
     #[must_use]
-    pub fn own(&self, method: Rule) -> Option<Point> {
-        let (study, _, _) = self.shown()?;
-        Some(study.point(0, method, self.level(method)?))
+    pub fn own(&self, rule: Rule) -> Option<Point> {
+        let (study, ..) = self.shown(rule)?;
+        Some(study.point(0, rule, self.level(rule)?))
+    }
+
+    /// The thresholds with which what is shown of a rule was counted, where it looks at others beside its own: those of the
+    /// scenario then.
+    #[must_use]
+    pub fn counted_with(&self, rule: Rule) -> Option<&Thresholds> {
+        let (study, ..) = self.shown(rule).filter(|_| !rule.fixed().is_empty())?;
+        Some(&study.spec().scenario.detection)
+    }
+
+    /// The thresholds that are set.
+    #[must_use]
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.thresholds
     }
 
     /// The same as JSON for whoever reads the page without eyes, with the progress in runs.
     #[must_use]
-    pub fn report(&self, method: Rule) -> Option<Value> {
+    pub fn report(&self, rule: Rule) -> Option<Value> {
         let (study, _) = self.study.as_ref()?;
         let progress = study.progress();
         Some(json!({
             "done": progress.done,
             "of": progress.of,
-            "method": method.name(),
+            "method": rule.name(),
             "helper": self.has_helper(),
             "held": self.held,
-            "own": self.own(method),
+            "begun": self.begun,
+            "own": self.own(rule),
         }))
     }
 }
 
-/// Whether too little is known yet of the cell that is set.
-fn is_young(study: &Study) -> bool {
-    let (free, held) = study.repeats(0);
+/// Whether too little is known yet of a rule in the cell that is set.
+fn is_young(study: &Study, rule: Rule) -> bool {
+    let (free, held) = study.runs(0, rule);
     held.unwrap_or(free).min(free) < ENOUGH.min(study.spec().repeats as u64)
 }
 
+/// Whether two scenarios differ in the values of thresholds alone.
+fn differ_in_thresholds(one: &Scenario, other: &Scenario) -> bool {
+    let mut moved = one.clone();
+    (moved.detection.xi1, moved.detection.xi1_factor) = (other.detection.xi1, other.detection.xi1_factor);
+    moved == *other
+}
+
 /// The study of a scenario: as it is set, with other filter lengths, and with contact at each disk.
-fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
-    let scenario = scenario.clone();
+fn spec(scenario: &Scenario, repeats: usize) -> Result<(Spec, Cells), ScenarioError> {
     let samples = scenario.motion.end * scenario.loop_rate;
     let own = scenario.filter.length;
     let mut lengths: Vec<u64> = LENGTHS.into_iter().filter(|&length| length as f64 <= samples).collect();
     if let Err(place) = lengths.binary_search(&own) {
         lengths.insert(place, own);
     }
-    let mut set: Vec<Vec<String>> = vec![Vec::new()];
+    let mut set: Vec<Vec<Override>> = vec![Vec::new()];
     let mut cells = Cells::default();
     let disks = scenario.robot.disks.len();
     match scenario.contact.place {
@@ -315,7 +365,7 @@ fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
         Place::Disk(_) if disks <= DISKS => {
             for disk in 1..=disks {
                 cells.contacts.push((format!("Disk {disk}"), set.len()));
-                set.push(vec![format!("contact.disk={disk}")]);
+                set.push(vec![whole("contact.disk", disk as u64)?]);
             }
         }
         Place::Disk(disk) => cells.contacts.push((format!("Disk {disk}"), 0)),
@@ -323,175 +373,10 @@ fn spec(scenario: &Scenario, repeats: usize) -> (Spec, Cells) {
     }
     for length in lengths {
         cells.lengths.push((length, set.len()));
-        set.push(vec![format!("filter.length={length}")]);
+        set.push(vec![whole("filter.length", length)?]);
     }
-    (Spec { scenario, repeats, late: LATE, cells: set, xi2: None, xi1: None }, cells)
+    Ok((Spec { late: LATE, cells: set, own: false, ..Spec::of(scenario.clone(), repeats) }, cells))
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use centrode_core::scenario::preset::find;
-    use centrode_core::study::tuning::remote::Remote;
-    use std::cell::RefCell;
-    use std::rc::Rc;
-
-    /// A worker in the same memory, and a hand on it from outside.
-    #[derive(Debug, Default)]
-    struct Desk {
-        remote: Option<Remote>,
-        asked: usize,
-        broken: bool,
-        babbles: bool,
-    }
-
-    #[derive(Debug, Clone, Default)]
-    struct Near(Rc<RefCell<Desk>>);
-
-    impl Helper for Near {
-        fn ask(&mut self, request: Option<&str>) {
-            let mut desk = self.0.borrow_mut();
-            desk.asked += usize::from(request.is_some());
-            desk.remote = request.map(|request| Remote::new(request).expect("a request"));
-        }
-
-        fn take(&mut self) -> Vec<Vec<u8>> {
-            let mut desk = self.0.borrow_mut();
-            let babbles = desk.babbles;
-            let remote = desk.remote.as_mut();
-            remote.map_or_else(Vec::new, |remote| {
-                let _ = (0..7).filter(|_| remote.step()).count();
-                vec![if babbles { vec![0xff; 9] } else { remote.answer().expect("bytes") }]
-            })
-        }
-
-        fn failure(&self) -> Option<String> {
-            self.0.borrow().broken.then(|| "it is gone".into())
-        }
-    }
-
-    fn bench() -> Scenario {
-        find("bench").and_then(|preset| preset.scenario()).expect("bench")
-    }
-
-    fn finish(tuner: &mut Tuner) -> usize {
-        (1..2000)
-            .find(|_| {
-                tuner.work(0.0);
-                tuner.progress().is_none()
-            })
-            .expect("an end")
-    }
-
-    #[test]
-    fn a_helper_gives_what_the_frames_give() {
-        let (mut alone, mut helped) = (Tuner::new(None), Tuner::new(Some(Box::<Near>::default())));
-        for tuner in [&mut alone, &mut helped] {
-            tuner.update(Some(&bench()), 4);
-            assert!(finish(tuner) > 3);
-        }
-        assert_eq!(alone.shown().map(|(study, ..)| study), helped.shown().map(|(study, ..)| study));
-        assert_eq!(alone.own(Rule::Fcd), helped.own(Rule::Fcd));
-    }
-
-    #[test]
-    fn a_helper_that_fails_is_replaced_by_the_frames() {
-        let near = Near::default();
-        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
-        tuner.update(Some(&bench()), 3);
-        tuner.work(0.0);
-        near.0.borrow_mut().broken = true;
-        finish(&mut tuner);
-        assert!(!tuner.has_helper());
-        assert_eq!(tuner.trouble(), Some("it is gone"));
-    }
-
-    #[test]
-    fn an_answer_that_cannot_be_read_ends_the_helper_and_not_the_study() {
-        let near = Near::default();
-        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
-        tuner.update(Some(&bench()), 3);
-        tuner.work(0.0);
-        near.0.borrow_mut().babbles = true;
-        assert!(tuner.work(0.0), "the next frame goes on with it");
-        assert!(tuner.trouble().is_some_and(|why| why.contains("cannot be read")), "{:?}", tuner.trouble());
-        assert!(near.0.borrow().remote.is_none(), "the helper was told to stop");
-        finish(&mut tuner);
-        assert_eq!((tuner.has_helper(), tuner.left()), (false, None));
-    }
-
-    #[test]
-    fn a_dragged_threshold_keeps_every_run() {
-        let near = Near::default();
-        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
-        let mut scenario = bench();
-        tuner.update(Some(&scenario), 3);
-        finish(&mut tuner);
-        let asked = near.0.borrow().asked;
-        for k in 0..50 {
-            let xi2 = 0.004_03 + 0.000_113 * f64::from(k);
-            scenario.detection.xi2 = Threshold::On(xi2);
-            tuner.update(Some(&scenario), 3);
-            assert_eq!((tuner.left(), near.0.borrow().asked), (None, asked), "{xi2} m");
-            assert_eq!(tuner.setting(Rule::Fcd), Some(xi2));
-            let counted = tuner.own(Rule::Fcd).expect("a point").threshold;
-            assert!((counted - xi2).abs() <= 0.000_05 + 1e-9, "{counted} m for {xi2} m");
-        }
-    }
-
-    #[test]
-    fn a_threshold_costs_no_run_and_a_filter_length_few() {
-        let near = Near::default();
-        let mut tuner = Tuner::new(Some(Box::new(near.clone())));
-        let mut scenario = bench();
-        tuner.update(Some(&scenario), 3);
-        finish(&mut tuner);
-        let asked = near.0.borrow().asked;
-        scenario.detection.xi2 = Threshold::On(0.0043);
-        tuner.update(Some(&scenario), 3);
-        assert_eq!((tuner.left(), near.0.borrow().asked), (None, asked));
-        assert_eq!(tuner.own(Rule::Fcd).map(|point| point.threshold), Some(0.0043));
-        scenario.filter.length = 300;
-        tuner.update(Some(&scenario), 3);
-        // The other disks at that length.
-        assert_eq!(tuner.left().map(|left| left.of - left.done), Some(2 * 3));
-        scenario.detection.xi2 = Threshold::On(0.0);
-        tuner.update(Some(&scenario), 3);
-        finish(&mut tuner);
-        assert_eq!(tuner.own(Rule::Fcd).map(|point| point.false_alarms.rate.rate), Some(1.0));
-        scenario.detection.xi2 = Threshold::OFF;
-        tuner.update(Some(&scenario), 3);
-        finish(&mut tuner);
-        assert!(tuner.own(Rule::Fcd).is_none() && tuner.own(Rule::Jfd).is_some());
-        // Nobody looks: nothing is made; and again it goes on.
-        tuner.update(None, 3);
-        assert_eq!((tuner.work(0.0), tuner.progress()), (false, None));
-        tuner.update(Some(&scenario), 3);
-        finish(&mut tuner);
-        // More repeats go on from those there are.
-        tuner.hold(true);
-        scenario.tracker.position_noise *= 2.0;
-        tuner.update(Some(&scenario), 3);
-        assert!(!tuner.is_held(), "what is new is made");
-        finish(&mut tuner);
-    }
-
-    #[test]
-    fn what_is_shown_stays_until_the_next_can_be_shown() {
-        let mut tuner = Tuner::new(None);
-        let mut scenario = bench();
-        scenario.motion.end = 8.0;
-        tuner.update(Some(&scenario), 25);
-        finish(&mut tuner);
-        let point = tuner.own(Rule::Fcd);
-        scenario.tracker.position_noise *= 3.0;
-        tuner.update(Some(&scenario), 25);
-        tuner.work(0.0);
-        scenario.tracker.position_noise *= 1.5;
-        tuner.update(Some(&scenario), 25);
-        tuner.work(0.0);
-        assert_eq!(tuner.own(Rule::Fcd), point);
-        finish(&mut tuner);
-        assert_ne!(tuner.own(Rule::Fcd), point);
-    }
-}
+mod tests;

@@ -8,6 +8,7 @@ mod lengths;
 mod words;
 
 use crate::app::charts::notation::job;
+use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::Inputs;
@@ -17,11 +18,12 @@ use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
+use centrode_core::scenario::Xi1Rule;
+use centrode_core::study::tuning::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
-use egui::{Align2, Color32, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
-use lengths::Picture;
+use egui::{Align2, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
 
 /// From this width on the pictures stand two by two.
 const BESIDE: f32 = 700.0;
@@ -38,9 +40,8 @@ const REACH: f32 = 32.0;
 const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
 const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
 
-/// How a method is called, and its threshold, unit and size of that unit.
+/// How the threshold of a method is shown: symbol, unit and size of that unit.
 pub struct Named {
-    name: &'static str,
     symbol: &'static str,
     unit: &'static str,
     scale: f64,
@@ -48,28 +49,16 @@ pub struct Named {
 }
 
 impl Named {
-    fn of(method: Rule, study: &Study) -> Self {
-        use centrode_core::scenario::Xi1Rule;
-        let name = match method {
-            Rule::Fcd => "Centrode",
-            Rule::Jfd => "Forces",
-            Rule::Or => "Either",
-            Rule::And => "Both",
-        };
-        match (method, study.spec().scenario.detection.xi1_rule) {
-            (Rule::Jfd, Xi1Rule::Constant) => Self { name, symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
-            (Rule::Jfd, Xi1Rule::Bound) => Self { name, symbol: "k", unit: "", scale: 1.0, decimals: 2 },
-            _ => Self { name, symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
-        }
+    fn of(rule: Rule, study: &Study) -> Self {
+        Self::by(rule, study.spec().scenario.detection.xi1_rule)
     }
-}
 
-fn color(method: Rule, theme: &Theme) -> Color32 {
-    match method {
-        Rule::Fcd => theme.sensor,
-        Rule::Jfd => theme.force,
-        Rule::Or => theme.ink,
-        Rule::And => theme.dim,
+    fn by(method: Rule, xi1_rule: Xi1Rule) -> Self {
+        match (method, xi1_rule) {
+            (Rule::Jfd, Xi1Rule::Constant) => Self { symbol: "ξ_1", unit: "mN·m", scale: 1e3, decimals: 1 },
+            (Rule::Jfd, Xi1Rule::Bound) => Self { symbol: "k", unit: "", scale: 1.0, decimals: 2 },
+            _ => Self { symbol: "ξ_2", unit: "mm", scale: 1e3, decimals: 1 },
+        }
     }
 }
 
@@ -82,13 +71,18 @@ struct Derived {
     own: Vec<Option<usize>>,
     settings: Vec<Option<f64>>,
     verdict: Verdict,
+    /// The thresholds that the chosen rule holds beside its own, in words.
+    beside: words::Beside,
 }
 
 /// What is kept between frames.
 #[derive(Default)]
 pub struct TuningState {
     derived: Option<Derived>,
-    picture: Option<Picture>,
+    operating: Option<Picture<curves::Key>>,
+    delay: Option<Picture<curves::Key>>,
+    places: Option<Picture<delays::Key>>,
+    lengths: Option<Picture<lengths::Key>>,
 }
 
 /// What the pictures are drawn from.
@@ -102,25 +96,25 @@ struct View<'a> {
 
 impl View<'_> {
     fn curve(&self) -> &[Point] {
-        &self.derived.curves[self.tuning.method as usize]
+        &self.derived.curves[self.tuning.rule as usize]
     }
 
     fn own(&self) -> Option<&Point> {
-        self.derived.own[self.tuning.method as usize].map(|level| &self.curve()[level])
+        self.derived.own[self.tuning.rule as usize].map(|level| &self.curve()[level])
     }
 
     /// The threshold that is set; [`Self::own`] is what the nearest one that was counted comes to.
     fn setting(&self) -> Option<f64> {
-        self.derived.settings[self.tuning.method as usize]
+        self.derived.settings[self.tuning.rule as usize]
     }
 
-    /// Takes a threshold of the chosen method. Joint forces are not filtered: with theirs, the length stays.
+    /// Takes a threshold of the chosen rule. Joint forces are not filtered: with theirs, the length stays.
     fn take_threshold(&self, threshold: f64, length: Option<u64>, out: &mut Vec<Command>) {
-        let method = self.tuning.method;
-        out.push(Command::Take { method, threshold, length: length.filter(|_| method != Rule::Jfd) });
+        let rule = self.tuning.rule;
+        out.push(Command::Take { rule, threshold, length: length.filter(|_| rule != Rule::Jfd) });
     }
 
-    /// Takes a level of the chosen method.
+    /// Takes a level of the chosen rule.
     fn take(&self, level: usize, length: Option<u64>, out: &mut Vec<Command>) {
         let Some(point) = self.curve().get(level) else { return };
         self.take_threshold(point.threshold, length, out);
@@ -130,12 +124,18 @@ impl View<'_> {
 /// Shows the study.
 pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningState, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let Some((study, cells, version)) = inputs.tuner.shown() else { return };
-    let TuningState { derived, picture } = state;
+    let Some((study, cells, version)) = inputs.tuner.shown(inputs.tuning.rule) else { return };
+    let TuningState { derived, operating, delay, places, lengths } = state;
     if derived.as_ref().is_none_or(|known| known.version != version || known.tuning != inputs.tuning) {
         *derived = Some(derive(study, cells, version, inputs));
     }
     let Some(derived) = derived else { return };
+    // The thresholds that are set move over the pictures, which stay.
+    let settings: Vec<Option<f64>> = Rule::ALL.iter().map(|&rule| inputs.tuner.setting(rule)).collect();
+    if derived.settings != settings {
+        derived.own = Rule::ALL.iter().map(|&rule| inputs.tuner.level(rule)).collect();
+        derived.settings = settings;
+    }
     let view = View { study, cells, tuning: inputs.tuning, derived, theme };
 
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("tuning"));
@@ -158,10 +158,10 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
             let step = vec2((width + GAP) * column as f32, (height + GAP) * row as f32);
             Rect::from_min_size(area.min + step, vec2(width, height))
         };
-        curves::operating(ui, place(0), &view, out);
-        curves::delay(ui, place(1), &view, out);
-        delays::histogram(ui, place(2), &view, out);
-        lengths::map(ui, place(3), &view, version, picture, out);
+        curves::operating(ui, place(0), &view, operating, out);
+        curves::delay(ui, place(1), &view, delay, out);
+        delays::histogram(ui, place(2), &view, version, places, out);
+        lengths::map(ui, place(3), &view, version, lengths, out);
         ui.add(Label::new(job(&command(inputs), 11.5, theme.dim)).wrap().selectable(true));
     };
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| all(ui));
@@ -170,7 +170,7 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
 /// The command that makes this study, with all its numbers.
 fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
-    let lengths = inputs.tuner.shown().map_or(&[][..], |(_, cells, _)| &cells.lengths);
+    let lengths = inputs.tuner.shown(inputs.tuning.rule).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
     let (scenario, hint) = if base == inputs.run.plan.scenario() {
         (format!("--preset {name}"), "")
@@ -186,26 +186,27 @@ fn command(inputs: &Inputs<'_>) -> String {
 
 fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> Derived {
     let (tuner, tuning) = (inputs.tuner, inputs.tuning);
-    let wish = Wish { method: tuning.method, false_alarm_rate: tuning.wish };
+    let wish = Wish { rule: tuning.rule, false_alarm_rate: tuning.wish };
     // Joint forces are not filtered: one length says it all.
     let lengths =
-        if tuning.method == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
+        if tuning.rule == Rule::Jfd { vec![0] } else { cells.lengths.iter().map(|(_, cell)| *cell).collect() };
     Derived {
         version,
         tuning,
-        curves: Rule::ALL.iter().map(|&rule| study.curve(0, rule)).collect(),
+        curves: Rule::ALL.iter().map(|&rule| tuner.curve(rule)).collect(),
         own: Rule::ALL.iter().map(|&rule| tuner.level(rule)).collect(),
         settings: Rule::ALL.iter().map(|&rule| tuner.setting(rule)).collect(),
         verdict: recommend_among(study, lengths, &wish),
+        beside: words::beside(tuner, tuning.rule),
     }
 }
 
 /// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names = Rule::ALL.map(|method| Named::of(method, view.study).name);
+    let names: Vec<_> = Rule::ALL.iter().map(|&rule| chart::name(rule)).collect();
     let parts: [(&str, Vec<&str>, usize, f32); 3] = [
-        ("Alarm by", names.to_vec(), tuning.method as usize, 280.0),
+        ("Alarm by", names, tuning.rule as usize, 280.0),
         (
             "False alarms, at most",
             WISHES.map(|(_, name)| name).to_vec(),
@@ -233,7 +234,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
         let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
         if let Some(picked) = segmented(ui, place, label, &options, chosen) {
             out.push(Command::Tune(match k {
-                0 => Tuning { method: Rule::ALL[picked], ..tuning },
+                0 => Tuning { rule: Rule::ALL[picked], ..tuning },
                 1 => Tuning { wish: WISHES[picked].0, ..tuning },
                 _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
             }));
@@ -265,6 +266,7 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
     let (advice, take) = words::advice(view);
     let done = inputs.tuner.left().is_none();
     let advice = if done { advice } else { format!("So far: {advice}") };
+    let advice = if take.is_some() { advice + &view.derived.beside.counted } else { advice };
     ui.horizontal_top(|ui| {
         let mut text = rich(&advice, 13.0, if take.is_some() { view.theme.ink } else { view.theme.dim });
         let room = if take.is_some() { 70.0 } else { 0.0 };
@@ -304,10 +306,4 @@ fn taken(ui: &Ui, response: &Response, near: impl Fn(Pos2) -> bool) -> Option<Po
         return None;
     }
     (response.clicked() || response.dragged()).then_some(at)
-}
-
-/// A title above a picture.
-fn title(ui: &Ui, rect: Rect, text: &str, theme: &Theme) {
-    let at = rect.min + vec2(4.0, 0.0);
-    paint(ui, at, Align2::LEFT_TOP, text, fonts::strong(12.5), theme.ink);
 }

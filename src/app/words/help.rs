@@ -24,7 +24,7 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     (
         "What the views show",
         "Blue triangles mark the model's centrode without contact, orange circles the model's centrode with contact, and green dots the centrode that the tracker measures. \
-         The detection and its estimate are vermilion. The 3D view and the bending plane use the same colours; the robot is steel grey, the beam stone.",
+         The detection and its estimate are vermilion. The 3D view and the bending plane use the same colours; the robot is steel grey, the beam stone grey.",
     ),
     (
         "What the plots show",
@@ -34,18 +34,18 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
     (
         "The paper on the page",
-        "The view Paper shows five figures of the paper and its Table II, simulated here; only the columns headed as the paper's hold its measurements. Each is made with a preset of its own, whatever \
+        "The view Paper shows five figures of the paper and its Table II, simulated here; only the parts headed “The paper's experiment” hold its measurements. Each is made with a preset of its own, whatever \
          is set on this page; “Use this scenario” loads that preset, and the figure then follows the controls. The map shows which contacts are detectable: for each place and bend at contact, the \
          largest thresholds that still detect it. Click on it to put the contact there.",
     ),
     (
         "Tuning",
         "The tuning view repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show how many false alarms an earlier detection costs; \
-         their bands show how uncertain that is after so few runs. A dot marks what is set, a ring what is advised. Click or drag on a picture to take its threshold; the plots below follow.",
+         their bands show how uncertain that is after so few runs. A dot marks what is set, a ring what is recommended. Click or drag on a picture to take its threshold; the plots below follow.",
     ),
     (
         "How to try things",
-        "Drag a slider, or type a value with or without its unit; the whole experiment is computed anew at once. The notch under a slider marks the preset's value, and the round arrow goes back to it.",
+        "Drag a slider, or type a value with or without its unit; the experiment is computed again at once. The notch under a slider marks the preset's value, and the round arrow returns to it.",
     ),
 ];
 
@@ -54,8 +54,8 @@ pub const KEYS: &[(&str, &str)] = &[
     ("Space", "play or pause"),
     ("← →", "step by 0.01 s"),
     ("Shift ← →", "step by 0.1 s"),
-    ("Home, End", "go to the start, the end"),
-    ("Esc", "take back what is being typed, close this"),
+    ("Home, End", "go to the start or the end"),
+    ("Esc", "discard what is typed, or close this"),
 ];
 
 /// Shows the help over the page.

@@ -3,25 +3,23 @@
 use crate::app::controls::control::Control;
 use crate::app::controls::quantity::number;
 use crate::app::controls::table;
-use crate::app::memo::{MAX_SAMPLES, Refusal};
 use centrode_core::scenario::keys::{Quantity, Units, Value};
 use centrode_core::scenario::{Refused, ScenarioError};
 
 /// The control of what is refused; none when no control sets it.
 #[must_use]
-pub fn control(refusal: &Refusal) -> Option<&'static Control> {
+pub fn control(refusal: &ScenarioError) -> Option<&'static Control> {
     match refusal {
-        Refusal::Impossible(ScenarioError::Value(refused)) => table::control_of(&refused.key),
-        Refusal::TooLong { .. } => table::control("motion.end"),
-        Refusal::Impossible(_) => None,
+        ScenarioError::Value(refused) => table::control_of(&refused.key),
+        _ => None,
     }
 }
 
 /// Why a scenario is refused. A key that no control sets keeps its own name.
 #[must_use]
-pub fn told(refusal: &Refusal) -> String {
+pub fn told(refusal: &ScenarioError) -> String {
     match (refusal, control(refusal)) {
-        (Refusal::Impossible(ScenarioError::Value(refused)), Some(control)) => {
+        (ScenarioError::Value(refused), Some(control)) => {
             let Refused { key, quantity, value, allowed } = &**refused;
             let said = match value {
                 Value::Number(si) => with_unit(*si, *quantity, control.decimals),
@@ -29,12 +27,7 @@ pub fn told(refusal: &Refusal) -> String {
             };
             format!("{} {said}: {}", label(control, key), allowed.words(*quantity, Units::Shown))
         }
-        (Refusal::Impossible(ScenarioError::Value(refused)), None) => refused.told(Units::Shown),
-        (Refusal::TooLong { end, rate, samples }, Some(control)) => format!(
-            "{} {} at loop_rate = {rate} Hz is a run of {samples} samples; the page takes at most {MAX_SAMPLES}",
-            control.label,
-            with_unit(*end, control.quantity(), control.decimals)
-        ),
+        (ScenarioError::Value(refused), None) => refused.told(Units::Shown),
         _ => refusal.to_string(),
     }
 }
@@ -49,7 +42,7 @@ fn label(control: &Control, key: &str) -> &'static str {
 }
 
 fn with_unit(si: f64, quantity: Quantity, decimals: usize) -> String {
-    format!("{} {}", number(quantity.shown(si), decimals), quantity.unit()).trim_end().into()
+    Quantity::joined(&number(quantity.shown(si), decimals), quantity.unit())
 }
 
 #[cfg(test)]
@@ -65,7 +58,7 @@ mod tests {
             ("contact.disk", "9", "Contact disk 9: a disk from 1 to 3, the robot's spacer disks, or 0 for no contact"),
             ("contact.disk", "50 mm", "Contact place 50 mm: a number from 0 mm to robot.length = 30 mm"),
             ("contact.time", "-1", "Contact time −1.00 s: a finite number, 0 s or more"),
-            ("contact.time", "400°", "Contact bend 400.00 °: a finite angle, less than one turn (360 °) from straight"),
+            ("contact.time", "400°", "Contact bend 400.00°: a finite angle, less than one turn (360°) from straight"),
             ("tracker.position_noise", "-1", "Position noise −1.000 mm: a number from 0 mm to 1000 mm"),
             ("load_cells.epsilon_tau", "100", "Load cell error ε_τ 100.0 %: from 0 % to below 100 %"),
             ("detection.xi1", "-5", "ξ1 (joint force) −5.0 mN·m: a finite number, 0 mN·m or more, or \"off\""),
@@ -75,7 +68,11 @@ mod tests {
                 "Young's modulus, primary 0.0 GPa: a number from 0.001 GPa to 10000 GPa",
             ),
             ("motion.finish", "2", "Motion ends 2.00 s: a time after motion.start = 3 s"),
-            ("motion.end", "300", "Run ends 300.00 s at loop_rate = 1000 Hz is a run of 300001 samples"),
+            (
+                "motion.end",
+                "300",
+                "Run ends 300.00 s: at most 200000 samples in a run that is kept in memory; this one has 300001",
+            ),
             (
                 "filter.length",
                 "20000",

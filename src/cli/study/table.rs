@@ -1,8 +1,10 @@
 //! Every threshold of every cell as CSV.
 
-use crate::cli::output::{Failure, NewFile, cell, finish_csv, write_record};
+use crate::cli::output::{Failure, NewFile, finish_csv, write_record};
+use centrode_core::chart::csv::cell;
+use centrode_core::scenario::Override;
 use centrode_core::study::tuning::Study;
-use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::watch::Rule;
 
 /// Columns after those of the swept keys. Thresholds are ξ2 in m, or ξ1 in N·m, or k where ξ1 follows the shape.
@@ -40,16 +42,15 @@ const COLUMNS: [&str; 27] = [
 pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
     let mut csv = csv::Writer::from_writer(file);
     let keys = study.cells().first().map_or(&[][..], |cell| &cell.set[..]);
-    let keys = keys.iter().map(|set| set.split_once('=').map_or(set.as_str(), |(key, _)| key));
+    let keys = keys.iter().map(Override::path);
     write_record(&mut csv, keys.chain(COLUMNS))?;
     for (k, settings) in study.cells().iter().enumerate() {
-        let values = settings.set.iter().map(|set| set.split_once('=').map_or("", |(_, value)| value).to_owned());
-        let values: Vec<String> = values.collect();
+        let values: Vec<String> = settings.set.iter().map(|set| set.written().to_owned()).collect();
         let contact = study.contact_time(k).map_or_else(String::new, cell);
-        for method in Rule::ALL {
-            for point in study.curve(k, method) {
+        for &rule in Rule::ALL {
+            for point in study.curve(k, rule) {
                 let mut row = values.clone();
-                row.extend([method.name().to_owned(), cell(point.threshold)]);
+                row.extend([rule.name().to_owned(), cell(point.threshold)]);
                 let alarms = point.false_alarms;
                 row.push(alarms.rate.of.to_string());
                 row.extend(rate(&alarms.rate));
@@ -71,6 +72,6 @@ pub fn csv(file: NewFile, study: &Study, partial: bool) -> Result<(), Failure> {
     finish_csv(csv)
 }
 
-fn rate(rate: &Rate) -> [String; 4] {
+fn rate(rate: &Share) -> [String; 4] {
     [rate.count.to_string(), cell(rate.rate), cell(rate.low), cell(rate.high)]
 }

@@ -1,15 +1,15 @@
 //! A study in words and a table.
 
-use centrode_core::scenario::Xi1Rule;
+use centrode_core::scenario::{Override, Xi1Rule};
 use centrode_core::study::Job;
-use centrode_core::study::tuning::rate::Rate;
+use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::tally::Found;
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
 use std::io::{self, Write};
 
-/// Width of method and threshold.
+/// Width of rule and threshold.
 const NARROW: usize = 23;
 
 /// Writes them.
@@ -22,12 +22,12 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     writeln!(out, "intervals   95 % (Wilson; of the median, from its ranks)\n")?;
     if let [_] = study.cells() {
         writeln!(out, "{}", head("method      threshold", NARROW))?;
-        for method in Rule::ALL {
-            let lead = match study.own(0, method) {
-                Some(level) => format!("{:<11} {}", name(method), threshold(study, 0, method, level)),
-                None => format!("{:<11} off", name(method)),
+        for &rule in Rule::ALL {
+            let lead = match study.own(0, rule) {
+                Some(level) => format!("{:<11} {}", name(rule), threshold(study, 0, rule, level)),
+                None => format!("{:<11} off", name(rule)),
             };
-            let point = study.own(0, method).map(|level| study.point(0, method, level));
+            let point = study.own(0, rule).map(|level| study.point(0, rule, level));
             writeln!(out, "{}", row(&lead, NARROW, point.as_ref()))?;
         }
         match study.contact_time(0) {
@@ -35,15 +35,15 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
             None => writeln!(out, "\ncontact     none")?,
         }
     } else {
-        let wide = study.cells().iter().map(|cell| cell.set.join(" ").chars().count()).max().unwrap_or(0);
-        writeln!(out, "{}, at the threshold that is set, and at the one advised in each cell", name(wish.method))?;
+        let wide = study.cells().iter().map(|cell| joined(&cell.set).chars().count()).max().unwrap_or(0);
+        writeln!(out, "{}, at the threshold that is set, and at the one advised in each cell", name(wish.rule))?;
         writeln!(out, "{}", head(&format!("{:<wide$}  threshold", ""), wide + 13))?;
         for (k, cell) in study.cells().iter().enumerate() {
-            let lead = |level: usize, sets: &str| format!("{sets:<wide$}  {}", threshold(study, k, wish.method, level));
-            let sets = cell.set.join(" ");
-            match study.own(k, wish.method) {
+            let lead = |level: usize, sets: &str| format!("{sets:<wide$}  {}", threshold(study, k, wish.rule, level));
+            let sets = joined(&cell.set);
+            match study.own(k, wish.rule) {
                 Some(level) => {
-                    let point = study.point(k, wish.method, level);
+                    let point = study.point(k, wish.rule, level);
                     writeln!(out, "{}", row(&lead(level, &sets), wide + 13, Some(&point)))?;
                 }
                 None => writeln!(out, "{sets:<wide$}  off")?,
@@ -62,8 +62,8 @@ pub fn text(out: &mut impl Write, study: &Study, wish: &Wish, verdict: &Verdict,
     }
 }
 
-fn name(method: Rule) -> &'static str {
-    match method {
+fn name(rule: Rule) -> &'static str {
+    match rule {
         Rule::Fcd => "centrode",
         Rule::Jfd => "forces",
         Rule::Or => "either",
@@ -71,13 +71,18 @@ fn name(method: Rule) -> &'static str {
     }
 }
 
-fn threshold(study: &Study, cell: usize, method: Rule, level: usize) -> String {
-    let value = study.levels(cell, method)[level];
-    match (method, study.cells()[cell].scenario.detection.xi1_rule) {
+fn threshold(study: &Study, cell: usize, rule: Rule, level: usize) -> String {
+    let value = study.levels(cell, rule)[level];
+    match (rule, study.cells()[cell].scenario.detection.xi1_rule) {
         (Rule::Jfd, Xi1Rule::Constant) => format!("{:.1} mN·m", value * 1e3),
         (Rule::Jfd, Xi1Rule::Bound) => format!("{value:.2} ε_c"),
         _ => format!("{:.2} mm", value * 1e3),
     }
+}
+
+/// What a cell changes, as it is written.
+fn joined(set: &[Override]) -> String {
+    set.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")
 }
 
 fn head(lead: &str, wide: usize) -> String {
@@ -128,7 +133,7 @@ fn seconds(value: f64) -> String {
 }
 
 /// `3 of 100 (1.0 to 8.5 %)`.
-fn share(rate: &Rate) -> String {
+fn share(rate: &Share) -> String {
     format!("{} of {} ({:.1} to {:.1} %)", rate.count, rate.of, rate.low * 100.0, rate.high * 100.0)
 }
 
@@ -138,11 +143,11 @@ fn advice(study: &Study, wish: &Wish, verdict: &Verdict) -> String {
     match verdict {
         Verdict::Take { cell, level, point } => {
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
-            let others = study.cells()[*cell].set.iter().filter(|set| !set.starts_with("filter.length="));
+            let others = study.cells()[*cell].set.iter().filter(|set| set.path() != "filter.length");
             let others: String = others.map(|set| format!(", {set}")).collect();
             format!(
                 "{} with N = {}{}: soonest with {most}, {} s after contact (median); {} runs without contact give a false alarm",
-                threshold(study, *cell, wish.method, *level),
+                threshold(study, *cell, wish.rule, *level),
                 study.cells()[*cell].scenario.filter.length,
                 others,
                 seconds(delay),

@@ -6,14 +6,30 @@
 const LONGEST_FILE: usize = 500;
 
 /// Names of other rooms and packages that the files of one room of `src/` do not use.
-const ROOMS: [(&str, &[&str]); 5] = [
+const ROOMS: [(&str, &[&str]); 6] = [
     ("scene", &["centrode_core", "show", "render", "app", "web", "cli", "egui", "eframe", "egui_wgpu", "wgpu"]),
     ("show", &["render", "app", "web", "cli", "egui", "eframe", "egui_wgpu", "wgpu"]),
     ("render", &["centrode_core", "show", "app", "web", "cli", "egui", "eframe", "egui_wgpu"]),
-    ("app", &["web", "cli", "web_sys"]),
+    ("app", &["web", "cli"]),
     // The scene lends its colours to figures on paper.
     ("cli", &["render", "app", "web"]),
+    ("main", &["render", "app", "web"]),
 ];
+
+/// The same for `core/src/`: what is told goes from the model to the studies, and a chart is drawn of what it is given.
+const CORE_ROOMS: [(&str, &[&str]); 8] = [
+    ("model", &["scenario", "plant", "sensors", "record", "detect", "run", "study", "chart", "fingerprints"]),
+    ("scenario", &["plant", "sensors", "record", "detect", "run", "study", "chart", "fingerprints"]),
+    ("plant", &["sensors", "record", "detect", "run", "study", "chart", "fingerprints"]),
+    ("sensors", &["record", "detect", "run", "study", "chart", "fingerprints"]),
+    ("record", &["detect", "run", "study", "chart", "fingerprints"]),
+    ("detect", &["plant", "run", "study", "chart", "fingerprints"]),
+    ("run", &["study", "chart", "fingerprints"]),
+    ("chart", &["model", "scenario", "plant", "sensors", "record", "detect", "run", "study", "fingerprints"]),
+];
+
+/// What knows the browser or asks which platform this is.
+const PLATFORM: [&str; 5] = ["target_arch", "target_family", "web_sys", "js_sys", "wasm_bindgen"];
 
 // Put together here, so that this file does not offend itself.
 const UNFINISHED: [&str; 5] = [
@@ -39,25 +55,53 @@ pub fn offences(name: &str, text: &str) -> Vec<(usize, String)> {
         }
     }
     if let Some(inside) = name.strip_prefix("src/").filter(|name| name.ends_with(".rs")) {
-        rooms(inside, text, &mut found);
+        let room = room(inside);
+        rooms(room, &ROOMS, text, &mut found);
+        if !matches!(room, "web" | "lib") {
+            platform(text, &mut found);
+        }
+    }
+    if let Some(inside) = name.strip_prefix("core/src/").filter(|name| name.ends_with(".rs")) {
+        rooms(room(inside), &CORE_ROOMS, text, &mut found);
+        platform(text, &mut found);
+        if room(inside) == "detect" {
+            for (line, _) in
+                codes(text).filter(|(_, code)| ["truth", "Truth"].iter().any(|word| contains_word(code, word)))
+            {
+                found.push((line, "detect does not look at the truth".into()));
+            }
+        }
     }
     found
 }
 
-/// The rules about rooms, for the file `inside` of `src/`.
-fn rooms(inside: &str, text: &str, found: &mut Vec<(usize, String)>) {
-    let room = inside.split(['/', '.']).next().unwrap_or_default();
-    let others = ROOMS.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, others)| others);
-    for (line, content) in numbered(text) {
-        // Addresses in texts are cut short as well: no path is lost with them.
-        let code = content.split("//").next().unwrap_or_default();
-        if !matches!(room, "web" | "lib") && contains_word(code, "target_arch") {
-            found.push((line, "target_arch stands in web.rs and lib.rs only".into()));
-        }
+/// The room of a file inside a package's `src/`.
+fn room(inside: &str) -> &str {
+    inside.split(['/', '.']).next().unwrap_or_default()
+}
+
+/// Who may import whom, for a file of `room`.
+fn rooms(room: &str, rules: &[(&str, &[&str])], text: &str, found: &mut Vec<(usize, String)>) {
+    let others = rules.iter().find(|(name, _)| *name == room).map_or(&[][..], |(_, others)| others);
+    for (line, code) in codes(text) {
         for name in others.iter().filter(|name| uses(code, name)) {
             found.push((line, format!("{room} does not know {name}")));
         }
     }
+}
+
+/// Nothing about the platform stands in this file.
+fn platform(text: &str, found: &mut Vec<(usize, String)>) {
+    for (line, code) in codes(text) {
+        for name in PLATFORM.iter().filter(|name| contains_word(code, name)) {
+            found.push((line, format!("{name} stands in src/web.rs and src/lib.rs only")));
+        }
+    }
+}
+
+/// The lines without comments. Addresses in texts are cut short as well: no path is lost with them.
+fn codes(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    numbered(text).map(|(line, content)| (line, content.split("//").next().unwrap_or_default()))
 }
 
 /// Whether a line of code uses the room or package `name`: a path that begins with it, from the crate's root, upwards, or, in
@@ -130,9 +174,15 @@ mod tests {
         bad("src/scene/arc.rs", "let a = centrode_core::run::simulate(b);", "does not know centrode_core");
         bad("src/scene/camera.rs", "use wgpu::Device;", "does not know wgpu");
         bad("src/render/mesh.rs", "use egui::Rect;", "does not know egui");
-        bad("src/app/state.rs", "use web_sys::window;", "does not know web_sys");
+        bad("src/app/state.rs", "use web_sys::window;", "web_sys");
         bad("src/app/state.rs", "use crate::web;", "does not know web");
         bad("src/cli/run.rs", "use crate::app::App;", "does not know app");
+        bad("core/src/model/arc.rs", "use crate::scenario::Plan;", "does not know scenario");
+        bad("core/src/chart/svg.rs", "use crate::{scenario::Plan};", "does not know scenario");
+        bad("core/src/detect/judge.rs", "use crate::plant::Plant;", "does not know plant");
+        bad("core/src/detect/judge.rs", "let contact = &recording.truth;", "does not look at the truth");
+        good("core/src/detect/judge.rs", "use crate::record::Recording; // never the truth");
+        good("core/src/study/map.rs", "use crate::run::Run;\nlet shape = recording.truth;");
         good("src/show/robot.rs", "use centrode_core::model::Pose;");
         good("src/render/mesh.rs", "use crate::scene::Scene;\nuse wgpu::Device;");
         good("src/app/state.rs", "use crate::{scene::{A, web}, render};\nuse egui::Ui;");
@@ -142,6 +192,9 @@ mod tests {
     #[test]
     fn the_platform_stands_in_two_files() {
         bad("src/app/state.rs", "#[cfg(target_arch = \"wasm32\")]", "target_arch");
+        bad("core/src/study/map.rs", "#[cfg(target_arch = \"wasm32\")]", "target_arch");
+        bad("core/src/lib.rs", "#[cfg(not(target_family = \"wasm\"))]", "target_family");
+        bad("src/show.rs", "use wasm_bindgen::prelude::*;", "wasm_bindgen");
         good("src/web.rs", "#[cfg(target_arch = \"wasm32\")]");
         good("src/web/widgets.rs", "#[cfg(target_arch = \"wasm32\")]");
         good("src/lib.rs", "#[cfg(target_arch = \"wasm32\")]");

@@ -1,6 +1,6 @@
 //! The axes of a panel: ranges, grid, numbers and names; the bar beside a map.
 
-use super::{Align, Frame, Ink, Look, Paint, Pen, Shape};
+use super::{Align, Frame, Ink, Item, Look, Paint, Pen};
 use crate::chart::clip::Rect;
 use crate::chart::font::width;
 use crate::chart::scale::Scale;
@@ -13,8 +13,13 @@ const MARGIN: f64 = 0.05;
 const SHARES: f64 = 0.04;
 /// Least distances of marks along both axes, in sizes of the text.
 const APART: [f64; 2] = [5.6, 2.9];
+/// The same in a row of plots, whose numbers are times.
+const IN_LINE: [f64; 2] = [4.4, 2.9];
 /// The same on an axis of shares, whose marks are short.
 const SHARES_APART: [f64; 2] = [2.3, 1.5];
+/// Data of one scale for both axes are at most this many times as wide, against their height, as what they show, and so many.
+const SPARE: f64 = 1.3;
+const SQUARE: f64 = 1.6;
 /// Width of a map's bar and of the space before it.
 const BAR: [f64; 2] = [0.9, 0.8];
 
@@ -27,7 +32,10 @@ fn ranges(panel: &Panel) -> [[f64; 2]; 2] {
             return [a.min(b), a.max(b)];
         }
         let series = panel.series.iter().flat_map(|series| &series.points);
-        let values = series.chain(panel.bands.iter().flat_map(|band| band.edges.iter().flatten())).map(|p| p[which]);
+        let bands = panel.bands.iter().flat_map(|band| band.edges.iter().flatten());
+        let bars = panel.bars.iter().flat_map(|bars| bars.corners.iter().flatten());
+        let intervals = panel.intervals.iter().flat_map(|all| all.ends.iter().flatten());
+        let values = series.chain(bands).chain(bars).chain(intervals).map(|p| p[which]);
         let (low, high) =
             values.filter(|x| x.is_finite()).fold((f64::MAX, f64::MIN), |(low, high), x| (low.min(x), high.max(x)));
         if low > high {
@@ -39,6 +47,16 @@ fn ranges(panel: &Panel) -> [[f64; 2]; 2] {
         [floor, high + margin]
     };
     [of(0, &panel.x), of(1, &panel.y)]
+}
+
+/// How much narrower the data's place is at both sides where one scale for both axes would leave it empty there, points.
+pub(super) fn spare(panel: &Panel, data: &Rect) -> f64 {
+    if !panel.equal_scales {
+        return 0.0;
+    }
+    let [x, y] = ranges(panel).map(|[low, high]| high - low);
+    let most = (SPARE * x / y).max(SQUARE) * data.height();
+    (0.5 * (data.width() - most)).max(0.0)
 }
 
 /// Which value lies where in the data's place.
@@ -53,14 +71,15 @@ pub(super) fn frame(panel: &Panel, data: Rect) -> Frame {
             *range = [middle - half, middle + half];
         }
     }
+    let along = |axis: &Axis, [from, to]: [f64; 2]| if axis.falling { [to, from] } else { [from, to] };
     let scale = |axis: &Axis, range, ends| match axis.steps {
         Steps::Shares => Scale::shares(SHARES, ends),
         _ => Scale::new(range, ends),
     };
     Frame {
         data,
-        x: scale(&panel.x, ranges[0], [data.left, data.right]),
-        y: scale(&panel.y, ranges[1], [data.bottom, data.top]),
+        x: scale(&panel.x, ranges[0], along(&panel.x, [data.left, data.right])),
+        y: scale(&panel.y, ranges[1], along(&panel.y, [data.bottom, data.top])),
     }
 }
 
@@ -90,7 +109,11 @@ fn sparse(marks: Vec<Tick>, scale: &Scale, t: f64, given: bool) -> Vec<Tick> {
 
 impl Pen<'_> {
     fn marks_of(&self, axis: &Axis, scale: &Scale, which: usize) -> Vec<Tick> {
-        let apart = if axis.steps == Steps::Shares { SHARES_APART } else { APART };
+        let apart = match axis.steps {
+            Steps::Shares => SHARES_APART,
+            _ if self.page.sides.is_some() => IN_LINE,
+            _ => APART,
+        };
         let marks = marks(axis, scale, apart[which] * self.t);
         if which == 0 { sparse(marks, scale, self.t, !axis.ticks.is_empty()) } else { marks }
     }
@@ -115,28 +138,52 @@ impl Pen<'_> {
     pub(super) fn axes(&mut self, panel: &Panel, place: Rect, frame: &Frame) {
         let (t, data) = (self.t, frame.data);
         let grid = panel.map.is_none();
+        let in_line = self.page.sides.is_some();
+        let ink = if in_line { Ink::Dim } else { Ink::Text };
         for span in &panel.spans {
             let ends = span.ends.map(|end| frame.x.at(end).max(data.left).min(data.right));
-            let rect = Rect { left: ends[0].min(ends[1]), right: ends[0].max(ends[1]), ..data };
-            self.add(Shape::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
+            let top = if span.low { data.bottom - 0.38 * t } else { data.top };
+            let rect = Rect { left: ends[0].min(ends[1]), right: ends[0].max(ends[1]), top, ..data };
+            let opacity = if span.low { 1.0 } else { super::data::SHADE };
+            self.add(Item::Fill(rect, Paint { ink: Ink::Role(span.role), opacity }));
         }
-        for tick in self.marks_of(&panel.x, &frame.x, 0) {
+        let marks = self.marks_of(&panel.x, &frame.x, 0);
+        let last = marks.len().saturating_sub(1);
+        for (k, tick) in marks.into_iter().enumerate() {
             let x = frame.x.at(tick.value);
             if grid && panel.x.ticks.is_empty() {
                 self.line(&[[x, data.top], [x, data.bottom]], Ink::Grid, 0.07 * t, None);
             }
+            if panel.x.bare {
+                continue;
+            }
             self.line(&[[x, data.bottom], [x, data.bottom + 0.35 * t]], Ink::Dim, 0.08 * t, None);
-            self.text(&tick.text, [x, data.bottom + 1.1 * t], Look { align: Align::Center, ..Look::PLAIN });
+            // Where the axis has no name, its last number has the unit.
+            let text = if in_line && k == last { format!("{} {}", tick.text, panel.x.unit) } else { tick.text };
+            let half = 0.5 * width(&text, t, false);
+            let x = if in_line { x.min(place.right - half) } else { x };
+            self.text(&text, [x, data.bottom + 1.1 * t], Look { align: Align::Center, ink, ..Look::PLAIN });
+        }
+        if grid {
+            for pair in panel.y.ticks.windows(2) {
+                let y = frame.y.at(f64::midpoint(pair[0].value, pair[1].value));
+                self.line(&[[data.left, y], [data.right, y]], Ink::Grid, 0.07 * t, None);
+            }
         }
         for tick in self.marks_of(&panel.y, &frame.y, 1) {
             let y = frame.y.at(tick.value);
             if grid && panel.y.ticks.is_empty() {
                 self.line(&[[data.left, y], [data.right, y]], Ink::Grid, 0.07 * t, None);
             }
-            if panel.y.ticks.is_empty() {
+            if panel.y.ticks.is_empty() && !in_line {
                 self.line(&[[data.left - 0.35 * t, y], [data.left, y]], Ink::Dim, 0.08 * t, None);
             }
-            self.text(&tick.text, [data.left - 0.65 * t, y], Look { align: Align::Right, ..Look::PLAIN });
+            let at = [data.left - if in_line { 0.5 } else { 0.65 } * t, y];
+            self.text(&tick.text, at, Look { align: Align::Right, ink, ..Look::PLAIN });
+        }
+        if in_line {
+            self.line(&[[data.left, data.bottom], [data.right, data.bottom]], Ink::Dim, 0.08 * t, None);
+            return;
         }
         let name = Look { size: 1.07 * t, align: Align::Center, ..Look::PLAIN };
         let [middle, height] = data.center();
@@ -190,7 +237,7 @@ impl Pen<'_> {
             let share = map.share(value((k as f64 + 0.5) / PIECES as f64));
             // A hair of overlap, so that no seam shows.
             let piece = Rect { top: to, bottom: (from + 0.04 * t).min(bar.bottom), ..bar };
-            self.add(Shape::Fill(piece, Ink::Map(share).into()));
+            self.add(Item::Fill(piece, Ink::Map(share).into()));
         }
         for tick in self.bar_marks(map, &scale) {
             let y = scale.at(tick.value);

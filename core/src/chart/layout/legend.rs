@@ -1,7 +1,7 @@
 //! What the signs of a panel mean, in rows above its data.
 
-use super::{Form, Ink, Look, Paint, Pen, Shape};
-use crate::chart::clip::{Point, Rect};
+use super::{Form, Ink, Item, Look, Paint, Pen};
+use crate::chart::clip::{Rect, Spot};
 use crate::chart::font::width;
 use crate::chart::{Panel, Role, Style};
 
@@ -17,7 +17,9 @@ const GAP: f64 = 1.4;
 enum Sign {
     Series(Style, Role),
     Vertical(Role),
-    Span,
+    Span(Role, bool),
+    Bar(Role),
+    Interval(Role),
 }
 
 /// An entry: its sign, its name, and whether it stands back.
@@ -26,9 +28,11 @@ type Entry<'a> = (Sign, &'a str, bool);
 fn entries(panel: &Panel) -> Vec<Entry<'_>> {
     let series = panel.series.iter().map(|s| (Sign::Series(s.style, s.role), s.name.as_str(), s.faint));
     let verticals = panel.verticals.iter().map(|v| (Sign::Vertical(v.role), v.name, false));
-    let spans = panel.spans.iter().map(|s| (Sign::Span, s.name, false));
+    let spans = panel.spans.iter().map(|s| (Sign::Span(s.role, s.low), s.name, false));
+    let bars = panel.bars.iter().map(|b| (Sign::Bar(b.role), b.name.as_str(), false));
+    let intervals = panel.intervals.iter().map(|i| (Sign::Interval(i.role), i.name.as_str(), false));
     let mut entries: Vec<Entry<'_>> = Vec::new();
-    for entry in series.chain(verticals).chain(spans) {
+    for entry in bars.chain(series).chain(intervals).chain(verticals).chain(spans) {
         if !entry.1.is_empty() && !entries.contains(&entry) {
             entries.push(entry);
         }
@@ -60,7 +64,7 @@ impl Pen<'_> {
     }
 
     /// Entries in rows, the first of which has its middle at `y`.
-    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Point, room: f64) {
+    pub(super) fn legend(&mut self, panel: &Panel, [left, y]: Spot, room: f64) {
         let t = self.t;
         let entries = entries(panel);
         let rows = self.rows(&entries, room);
@@ -72,11 +76,15 @@ impl Pen<'_> {
         }
     }
 
-    fn sign(&mut self, sign: Sign, [x, y]: Point) {
+    fn sign(&mut self, sign: Sign, [x, y]: Spot) {
         let t = self.t;
         let line = [[x - 1.15 * t, y], [x + 1.15 * t, y]];
         match sign {
             Sign::Series(Style::Line, role) => self.line(&line, Ink::Role(role), 0.16 * t, None),
+            Sign::Series(Style::Heavy, role) => {
+                self.line(&[[x, y - 0.6 * t], [x, y + 0.6 * t]], Ink::Role(role), 0.27 * t, None);
+            }
+            Sign::Series(Style::Thin, role) => self.line(&line, Ink::Role(role), 0.1 * t, None),
             Sign::Series(Style::Dashed, role) | Sign::Vertical(role) => {
                 self.line(&line, Ink::Role(role), 0.13 * t, Some([0.46 * t, 0.3 * t]));
             }
@@ -84,9 +92,16 @@ impl Pen<'_> {
             Sign::Series(Style::Circles, role) => self.mark([x, y], Form::Circle, role, Ink::Ground),
             Sign::Series(Style::Dots | Style::Targets, role) => self.mark([x, y], Form::Dot, role, Ink::Ground),
             Sign::Series(Style::Rings, role) => self.mark([x, y], Form::Ring, role, Ink::Ground),
-            Sign::Span => {
-                let rect = Rect { left: x - 1.15 * t, right: x + 1.15 * t, top: y - 0.45 * t, bottom: y + 0.45 * t };
-                self.add(Shape::Fill(rect, Paint { ink: Ink::Dim, opacity: super::data::SHADE }));
+            Sign::Series(Style::Diamonds, role) => self.mark([x, y], Form::Diamond, role, Ink::Ground),
+            Sign::Interval(role) => {
+                self.line(&line, Ink::Role(role), 0.12 * t, None);
+                self.mark([x, y], Form::Dot, role, Ink::Ground);
+            }
+            Sign::Bar(role) | Sign::Span(role, _) => {
+                let half = if matches!(sign, Sign::Span(_, true)) { 0.19 } else { 0.45 };
+                let opacity = if matches!(sign, Sign::Span(_, false)) { super::data::SHADE } else { 1.0 };
+                let rect = Rect { left: x - 1.15 * t, right: x + 1.15 * t, top: y - half * t, bottom: y + half * t };
+                self.add(Item::Fill(rect, Paint { ink: Ink::Role(role), opacity }));
             }
         }
     }

@@ -3,7 +3,7 @@
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
 use crate::scenario::Scenario;
-use crate::scenario::keys::quantity::{Quantity, Units};
+use crate::scenario::keys::quantity::{Quantity, Units, readable};
 use crate::scenario::keys::value::Value;
 use crate::scenario::keys::{self, Key};
 use crate::scenario::plan::{MAX_FILTER, MAX_SAMPLES, steps};
@@ -104,6 +104,8 @@ pub enum Allowed {
     Without(&'static str),
     /// The keys of this group.
     Group(&'static str),
+    /// Cells of a study that have at most so many thresholds together.
+    Thresholds(usize),
     /// What a study needs of it, in words.
     Need(&'static str),
 }
@@ -156,7 +158,7 @@ impl Allowed {
             }
             Self::Threshold => format!("a finite number, {} or more, or \"off\"", amount(0.0)),
             Self::Vector(most) => format!("three numbers, [x, y, z], each from {} to {}", amount(-most), amount(most)),
-            Self::Disks => "a list of rising arc lengths, above 0 and at most robot.length".into(),
+            Self::Disks => "a list of arc lengths in rising order, each above 0 and at most robot.length".into(),
             Self::NextDisk { before, length } => format!(
                 "an arc length above the disk before it ({}) and at most robot.length = {}",
                 amount(before),
@@ -171,9 +173,9 @@ impl Allowed {
                 "a bend below length/pitch_radius = {}, or a secondary backbone would have no length left",
                 Quantity::Angle.amount(most, units)
             ),
-            Self::Disk(None) => "a whole number: that of a disk, or 0 for no contact".into(),
+            Self::Disk(None) => "the number of a disk, or 0 for no contact".into(),
             Self::Disk(Some(0)) => {
-                "0, no contact: the robot has no spacer disks (contact.arc_length needs none)".into()
+                "0 for no contact, because the robot has no spacer disks (contact.arc_length needs none)".into()
             }
             Self::Disk(Some(count)) => {
                 format!("a disk from 1 to {count}, the robot's spacer disks, or 0 for no contact")
@@ -182,12 +184,13 @@ impl Allowed {
                 format!("a finite time above {}; a run has at most {MAX_SAMPLES:e} samples", amount(0.0))
             }
             Self::RunEnd(Some(rate)) => format!(
-                "a run of at most {MAX_SAMPLES:e} samples, at loop_rate = {} so at most {}",
+                "a run of at most {MAX_SAMPLES:e} samples, which at loop_rate = {} last {}",
                 Quantity::Frequency.amount(rate, units),
                 amount(MAX_SAMPLES / rate)
             ),
             Self::FilterLength(None) => {
-                format!("a whole number from 1 to {MAX_FILTER}, and no more than the run has samples")
+                let most = readable(MAX_FILTER as f64);
+                format!("a whole number from 1 to {most}, and no more than the run has samples")
             }
             Self::FilterLength(Some(samples)) => format!(
                 "a whole number from 1 to {}; the run has {samples} samples (motion.end · loop_rate)",
@@ -198,6 +201,9 @@ impl Allowed {
             ),
             Self::Without(other) => format!("{other} is given as well; give one of the two, not both"),
             Self::Group(path) => format!("a table of keys: {}", keys::names(path).join(", ")),
+            Self::Thresholds(most) => {
+                format!("at most {most} thresholds in all cells; compare fewer values or thresholds")
+            }
             Self::Need(words) => words.into(),
         }
     }
@@ -206,7 +212,7 @@ impl Allowed {
 fn turn(units: Units) -> &'static str {
     match units {
         Units::Si => "2π rad",
-        Units::Shown => "360 °",
+        Units::Shown => "360°",
     }
 }
 

@@ -1,6 +1,7 @@
 //! What is written from the table: the commented default scenario, and the reference in `docs/KEYS.md`.
 
 use crate::scenario::Scenario;
+use crate::scenario::keys::quantity::readable;
 use crate::scenario::keys::{Allowed, GROUPS, KEYS, Key, Units, Value};
 use std::fmt::Write;
 
@@ -9,7 +10,8 @@ const COMMENT: usize = 30;
 
 /// A number as a TOML float.
 fn float(value: f64) -> String {
-    if value.abs() >= 1e6 { format!("{value:e}") } else { format!("{value:?}") }
+    let text = readable(value);
+    if text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'-') { text + ".0" } else { text }
 }
 
 fn toml(value: &Value) -> String {
@@ -84,7 +86,7 @@ pub fn reference() -> String {
     let mut out = String::from(
         "# The keys of a scenario\n\n\
          Written from the table of keys in `core/src/scenario/keys/table.rs`; a test keeps it current, and\n\
-         `UPDATE_SNAPSHOTS=1 cargo test --test it keys` writes it anew.\n\n\
+         `cargo xtask renew keys` writes it anew.\n\n\
          A scenario is a TOML file in SI units and radians; a missing key has its default. `centrode scenario` prints a file\n\
          with every key, and `--set KEY=VALUE` overrides one. The page shows lengths in mm, angles in °, moments in mN·m,\n\
          moduli in GPa and shares in %. Defaults marked with * are illustrative: the paper gives none.\n",

@@ -99,15 +99,29 @@ impl Quantity {
         shown * over / under
     }
 
+    /// A number and its unit as they are written: only the degree sign stands close to its number.
+    #[must_use]
+    pub fn joined(number: &str, unit: &str) -> String {
+        let space = if unit.is_empty() || unit == "°" { "" } else { " " };
+        format!("{number}{space}{unit}")
+    }
+
     /// An SI value with its unit, as `units` has it.
     #[must_use]
     pub fn amount(self, si: f64, units: Units) -> String {
         let (text, unit) = match units {
-            Units::Si => (number(si), self.si_unit()),
+            Units::Si => (readable(si), self.si_unit()),
             Units::Shown => (number(rounded::<5>(self.shown(si))).replace('-', "−"), self.unit()),
         };
-        if unit.is_empty() { text } else { format!("{text} {unit}") }
+        Self::joined(&text, unit)
     }
+}
+
+/// A number of the reference: with a power of ten where it would have many zeros.
+#[must_use]
+pub fn readable(value: f64) -> String {
+    let size = value.abs();
+    if size != 0.0 && size.is_finite() && !(1e-4..1e6).contains(&size) { format!("{value:e}") } else { number(value) }
 }
 
 /// A value with this many digits after its first.
@@ -132,6 +146,11 @@ mod tests {
     fn an_amount_has_the_reader_s_unit() {
         assert_eq!(Quantity::Length.amount(-0.0225, Units::Si), "-0.0225 m");
         assert_eq!(Quantity::Length.amount(-0.0225, Units::Shown), "−22.5 mm");
+        assert_eq!(Quantity::Angle.amount(PI, Units::Shown), "180°");
+        assert_eq!(Quantity::AngularSpeed.amount(PI, Units::Shown), "180 °/s");
+        assert_eq!(Quantity::Modulus.amount(1e13, Units::Si), "1e13 Pa");
+        assert_eq!(Quantity::Length.amount(1e-6, Units::Si), "1e-6 m");
+        assert_eq!(Quantity::Frequency.amount(1e6, Units::Si), "1e6 Hz");
         assert_eq!(Quantity::Ratio.amount(1.0, Units::Si), "1");
         assert_eq!(Quantity::Ratio.amount(1.0, Units::Shown), "100 %");
     }

@@ -21,15 +21,15 @@ pub struct Group {
 /// All groups, each before the keys in it.
 pub const GROUPS: &[Group] = &[
     Group { path: "robot", sentence: "The segment." },
-    Group { path: "robot.primary", sentence: "The tube of the central backbone." },
+    Group { path: "robot.primary", sentence: "The tube of the central (primary) backbone." },
     Group { path: "robot.secondary", sentence: "The tube of each of the three other backbones." },
-    Group { path: "motion", sentence: "The commanded motion: fifth order, from rest to rest." },
+    Group { path: "motion", sentence: "The commanded motion: a fifth-order polynomial from rest to rest." },
     Group { path: "contact", sentence: "A fixed beam that the backbone meets." },
     Group { path: "tracker", sentence: "The tracker on the end disk." },
     Group { path: "load_cells", sentence: "The load cells on the secondary backbones." },
-    Group { path: "load", sentence: "A wrench on the end disk, which ramps up and stays." },
+    Group { path: "load", sentence: "A wrench on the end disk, which ramps up and then stays constant." },
     Group { path: "filter", sentence: "The moving average over the tracker's readings." },
-    Group { path: "detection", sentence: "Thresholds, and when they are looked at." },
+    Group { path: "detection", sentence: "Thresholds, and when they apply." },
 ];
 
 macro_rules! number {
@@ -126,7 +126,7 @@ pub const KEYS: &[Key] = &[
         Length,
         between(RADII.0, RADII.1),
         number!(robot.pitch_radius),
-        "Radius of the circle on which the three secondary backbones stand.",
+        "Radius of the pitch circle, on which the three secondary backbones lie.",
     )
     .usual_range(0.0005, 0.008)
     .illustrative(),
@@ -150,7 +150,7 @@ pub const KEYS: &[Key] = &[
         Length,
         below_key("robot.primary.outer_diameter"),
         number!(robot.primary.inner_diameter),
-        "Inner diameter of the central tube; 0 is a wire.",
+        "Inner diameter of the central tube; 0 means a solid wire.",
     )
     .illustrative(),
     key(
@@ -175,7 +175,7 @@ pub const KEYS: &[Key] = &[
         Length,
         below_key("robot.secondary.outer_diameter"),
         number!(robot.secondary.inner_diameter),
-        "Inner diameter of each of the three outer tubes; 0 is a wire.",
+        "Inner diameter of each of the three outer tubes; 0 means a solid wire.",
     )
     .illustrative(),
     key(
@@ -208,11 +208,11 @@ pub const KEYS: &[Key] = &[
         Angle,
         between(-MAX_TURN, MAX_TURN),
         number!(motion.delta),
-        "Turns the bending plane about the straight backbone.",
+        "Direction of the bending plane about the straight backbone.",
     )
     .usual_range(-PI, PI)
     .illustrative(),
-    key("motion.start", Time, NOT_NEGATIVE, number!(motion.start), "When the motion starts; the robot rests before.")
+    key("motion.start", Time, NOT_NEGATIVE, number!(motion.start), "When the motion starts; the robot is at rest before.")
         // A step at least remains for the motion.
         .usual_of(|s| (0.0, (s.motion.finish - 0.05).max(s.motion.finish / 2.0))),
     key(
@@ -220,7 +220,7 @@ pub const KEYS: &[Key] = &[
         Time,
         Allowed::Range(Limit::BeyondKey("motion.start", None), Limit::None),
         number!(motion.finish),
-        "When the motion is finished; the robot rests after.",
+        "When the motion ends; the robot is at rest afterwards.",
     )
     .usual_of(|s| (s.motion.start + 0.05, s.motion.end.max(s.motion.start + 0.1))),
     key("motion.end", Time, Allowed::RunEnd(None), number!(motion.end), "When the run ends.")
@@ -242,7 +242,7 @@ pub const KEYS: &[Key] = &[
             },
             |s, disk| s.contact.place = Place::disk(disk),
         ),
-        "The disk at which the beam meets the backbone, counted from 1 at the base; 0 is no contact.",
+        "The disk at which the beam meets the backbone, counted from 1 at the base; 0 means no contact.",
     )
     .usual_of(|s| (0.0, s.robot.disks.len() as f64)),
     key(
@@ -285,7 +285,7 @@ pub const KEYS: &[Key] = &[
             },
             |s, bend| s.contact.start = Start::Bend(bend),
         ),
-        "Bend at which the backbone reaches the beam; 0 is straight.",
+        "Bend at which the backbone reaches the beam; 0 means straight.",
     )
     .instead_of("contact.time", 0.98),
     key(
@@ -293,7 +293,7 @@ pub const KEYS: &[Key] = &[
         Frequency,
         between(1e-3, 1e6),
         number!(tracker.rate),
-        "How often the tracker has a new reading; the loop holds the last one.",
+        "How often the tracker delivers a new reading; between two readings the loop uses the last one.",
     )
     .usual_range(10.0, 500.0),
     key(
@@ -319,7 +319,7 @@ pub const KEYS: &[Key] = &[
         Length,
         between(0.0, 1.0),
         number!(tracker.position_resolution),
-        "Coordinates are rounded to multiples of this; 0 does not round.",
+        "Coordinates are rounded to multiples of this; 0 means no rounding.",
     )
     .usual_range(0.0, 0.001)
     .illustrative(),
@@ -328,7 +328,7 @@ pub const KEYS: &[Key] = &[
         Angle,
         between(0.0, PI),
         number!(tracker.orientation_resolution),
-        "Angles are rounded to multiples of this; 0 does not round.",
+        "Angles are rounded to multiples of this; 0 means no rounding.",
     )
     .usual_range(0.0, PI / 180.0)
     .illustrative(),
@@ -346,7 +346,7 @@ pub const KEYS: &[Key] = &[
         Word,
         Allowed::Words(&["bending-axis", "aligned"]),
         either!(tracker.mounting, Mounting::BendingAxis, Mounting::Aligned),
-        "The marker's x axis lies along the bending axis, or its axes are those of the end disk: singular at 90° of bend.",
+        "How the marker is mounted: with its x axis along the bending axis, or aligned with the end disk, where its angles are singular at a bend of 90°.",
     )
     .illustrative(),
     key(
@@ -354,7 +354,7 @@ pub const KEYS: &[Key] = &[
         Ratio,
         Allowed::Range(Limit::At(0.0), Limit::Beyond(1.0)),
         number!(load_cells.epsilon_tau),
-        "Relative error of the three load cells, which sets the bound ε_c; friction counts as one.",
+        "Relative error of the three load cells, which sets the bound ε_c; friction counts as part of it.",
     )
     .usual_range(0.0, 0.5),
     key(
@@ -362,7 +362,7 @@ pub const KEYS: &[Key] = &[
         Word,
         Allowed::Words(&["common", "independent"]),
         either!(load_cells.errors, CellErrors::Common, CellErrors::Independent),
-        "All three cells err by ε_τ, or each by its own part of it, drawn from the seed.",
+        "Whether all three cells have the error ε_τ, or each its own error within ±ε_τ, drawn from the seed.",
     ),
     key(
         "load_cells.noise",
@@ -378,7 +378,7 @@ pub const KEYS: &[Key] = &[
         Force,
         between(-MAX_FORCE, MAX_FORCE),
         number!(load_cells.preload),
-        "Force added to all three secondary backbones alike.",
+        "The same force added to all three secondary backbones.",
     )
     .usual_range(0.0, 50.0)
     .illustrative(),
@@ -400,7 +400,7 @@ pub const KEYS: &[Key] = &[
     )
     .usual_range(-0.05, 0.05)
     .illustrative(),
-    key("load.start", Time, NOT_NEGATIVE, number!(load.start), "From here on the load grows evenly.")
+    key("load.start", Time, NOT_NEGATIVE, number!(load.start), "From this time on the load grows linearly.")
         .usual_of(|s| (0.0, s.load.finish))
         .illustrative(),
     key(
@@ -408,7 +408,7 @@ pub const KEYS: &[Key] = &[
         Time,
         Allowed::Range(Limit::Key("load.start", None), Limit::None),
         number!(load.finish),
-        "From here on the load is whole and stays.",
+        "From this time on the load has its full value.",
     )
     .usual_of(|s| (s.load.start, s.motion.end.max(s.load.start + 0.1)))
     .illustrative(),
@@ -417,7 +417,7 @@ pub const KEYS: &[Key] = &[
         Count,
         Allowed::FilterLength(None),
         whole!(filter.length),
-        "Readings in the moving average, one per loop step: longer is calmer and later. 1 does not filter.",
+        "Readings in the moving average, one per loop step. A longer average has less noise but reacts later; 1 means no filter.",
     )
     .usual_of(|s| (1.0, libm::floor(s.motion.end * s.loop_rate).clamp(2.0, 2000.0))),
     key(
@@ -441,7 +441,7 @@ pub const KEYS: &[Key] = &[
         Word,
         Allowed::Words(&["constant", "bound"]),
         either!(detection.xi1_rule, Xi1Rule::Constant, Xi1Rule::Bound),
-        "ξ1 is one constant, or follows the shape: k times the bound ε_c of the shape commanded.",
+        "Whether ξ1 is a constant, or k times the bound ε_c at the commanded shape.",
     )
     .illustrative(),
     key(
@@ -449,7 +449,7 @@ pub const KEYS: &[Key] = &[
         Count,
         NOT_NEGATIVE,
         number!(detection.xi1_factor),
-        "k, while ξ1 is k times the bound ε_c at the shape. Below 1, friction alone alarms.",
+        "k, where ξ1 is k times the bound ε_c at the commanded shape. Below 1, friction alone can raise an alarm.",
     )
     .usual_range(0.0, 5.0)
     .illustrative(),
@@ -474,7 +474,7 @@ pub const KEYS: &[Key] = &[
         AngularSpeed,
         NOT_NEGATIVE,
         number!(detection.min_speed),
-        "Centrodes are judged only while the end disk turns faster.",
+        "Centrodes are judged only while the end disk turns faster than this.",
     )
     .usual_range(0.0, FAST)
     .illustrative(),

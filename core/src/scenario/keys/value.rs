@@ -26,6 +26,10 @@ impl Value {
     pub fn told(&self, quantity: Quantity, units: Units) -> String {
         match (self, units) {
             (Self::Number(value), Units::Shown) => quantity.amount(*value, units),
+            (Self::List(values), Units::Shown) => {
+                let amounts: Vec<_> = values.iter().map(|&value| quantity.amount(value, units)).collect();
+                format!("[{}]", amounts.join(", "))
+            }
             _ => self.to_toml(),
         }
     }

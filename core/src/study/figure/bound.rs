@@ -55,10 +55,10 @@ fn last_bend(plan: &Plan) -> f64 {
 }
 
 /// A bound (N·m) from a segment, its configuration, the load cells' readings (N) and their relative error.
-type Rule = fn(&Segment, &Configuration, &Vec3, f64) -> f64;
+type Bound = fn(&Segment, &Configuration, &Vec3, f64) -> f64;
 
 /// A bound against θL at some bends (rad), for cells that all read τ/(1 − `epsilon`).
-pub fn curve(plan: &Plan, bends: &[f64], epsilon: f64, rule: Rule) -> Vec<[f64; 2]> {
+pub fn curve(plan: &Plan, bends: &[f64], epsilon: f64, rule: Bound) -> Vec<[f64; 2]> {
     let (segment, Scenario { motion, load_cells, .. }) = (plan.segment(), plan.scenario());
     let plane = Configuration::new(0.0, motion.delta);
     let at = |bend: &f64| {

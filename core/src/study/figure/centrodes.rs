@@ -6,7 +6,8 @@ use super::words::{self, MILLI};
 use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Configuration, Rate, Vec3};
-use crate::plant::{Plant, Shape};
+use crate::plant::Shape;
+use crate::record::held_still;
 use crate::scenario::{Plan, ScenarioError, motion::command};
 
 /// Marks of a locus over the whole motion.
@@ -43,33 +44,33 @@ impl Centrodes {
     }
 
     fn locus(&self, plan: &Plan) -> Vec<[f64; 2]> {
-        let plant = Plant::new(plan);
         let held = plan.contact().is_some();
-        let chosen = self.even(MARKS).filter(|configuration| !held || plant.held(configuration).is_some());
+        let truths = self.even(MARKS).zip(held_still(plan, self.even(MARKS)));
+        let chosen = truths.filter(|(_, truth)| !held || truth.held.is_some());
         chosen
-            .filter_map(|configuration| {
-                let (pose, jacobian) = plant.shape(configuration).tip_pose_and_jacobian();
+            .filter_map(|(configuration, truth)| {
+                let (pose, jacobian) = truth.shape.tip_pose_and_jacobian();
                 Some(in_plane(&configuration, &jacobian.centrode(&pose.position, Rate::BENDING)?))
             })
             .collect()
     }
 
     fn backbones(&self) -> Vec<Series> {
-        let (free, held) = (Plant::new(&self.free), Plant::new(&self.plan));
+        let [free, held] = [&self.free, &self.plan].map(|plan| held_still(plan, self.even(BACKBONES)));
         let mut series = Vec::new();
-        for configuration in self.even(BACKBONES) {
+        for ((configuration, free), held) in self.even(BACKBONES).zip(free).zip(held) {
             series.push(Series::new(
                 "backbone without constraint",
                 Role::Robot,
                 Style::Line,
-                self.backbone(&configuration, &free.shape(configuration)),
+                self.backbone(&configuration, &free.shape),
             ));
-            if held.held(&configuration).is_some() {
+            if held.held.is_some() {
                 series.push(Series::new(
                     "backbone with constraint",
                     Role::Constrained,
                     Style::Dashed,
-                    self.backbone(&configuration, &held.shape(configuration)),
+                    self.backbone(&configuration, &held.shape),
                 ));
             }
         }

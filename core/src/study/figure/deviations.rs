@@ -96,7 +96,10 @@ impl Content for Deviations {
         verticals.extend(self.contact.map(|x| Vertical { name: "contact begins", x, role: Role::Contact }));
         let unarmed = [ends[0], detection.armed_from.min(ends[1])];
         let panel = Panel {
-            spans: (unarmed[1] > unarmed[0]).then_some(Span { name: "not armed", ends: unarmed }).into_iter().collect(),
+            spans: (unarmed[1] > unarmed[0])
+                .then_some(Span { name: "not armed", role: Role::Aside, low: false, ends: unarmed })
+                .into_iter()
+                .collect(),
             series,
             verticals,
             ..Panel::new(

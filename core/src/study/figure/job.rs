@@ -73,7 +73,7 @@ impl Display for Number {
 
 /// A figure that is not made.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("unknown figure {text:?}; known are: {known}", known = Number::ALL.map(|number| number.to_string()).join(", "))]
+#[error("unknown figure {text:?}; known figures: {known}", known = Number::ALL.map(|number| number.to_string()).join(", "))]
 pub struct UnknownFigure {
     /// What was asked for.
     pub text: String,

@@ -1,10 +1,11 @@
 //! The map as a chart: one panel for each method, with the line that its setting draws, and the contact that is set.
 
-use super::Map;
+use super::ContactMap;
 use super::contour::contour;
 use crate::chart::notation::number;
 use crate::chart::ticks::Steps;
 use crate::chart::{self, Axis, Chart, Panel, Role, Rung, Series, Style};
+use crate::scenario::plan::PlannedContact;
 use crate::scenario::{Plan, Scenario};
 use crate::study::figure::words;
 
@@ -14,9 +15,9 @@ pub const MOST: f64 = 0.5;
 /// A threshold that a map shows for every contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// [`Map::deviation`]: the largest ξ2 that finds the contact.
+    /// [`ContactMap::deviation`]: the largest ξ2 that finds the contact.
     Centrode,
-    /// [`Map::epsilon`]: the largest ε_τ at which joint forces show it.
+    /// [`ContactMap::epsilon`]: the largest ε_τ at which joint forces show it.
     Forces,
 }
 
@@ -53,7 +54,7 @@ impl Kind {
 
     /// Its values, cell by cell, SI.
     #[must_use]
-    pub fn values(self, map: &Map) -> &[f64] {
+    pub fn values(self, map: &ContactMap) -> &[f64] {
         match self {
             Self::Centrode => &map.deviation,
             Self::Forces => &map.epsilon,
@@ -72,7 +73,22 @@ impl Kind {
 
 /// The chart of a map of the plan's motion; line and contact are the plan's own.
 #[must_use]
-pub fn chart(map: &Map, plan: &Plan) -> Chart {
+pub fn chart(map: &ContactMap, plan: &Plan) -> Chart {
+    let mut chart = without_contact(map, plan);
+    chart.panels.iter_mut().for_each(|panel| panel.series.extend(target(plan)));
+    chart
+}
+
+/// The contact of a plan, in both panels.
+#[must_use]
+pub fn target(plan: &Plan) -> Option<Series> {
+    let at = |contact: &PlannedContact| vec![[contact.bend, contact.arc_length]];
+    plan.contact().map(|contact| Series::new("", Role::Detection, Style::Targets, at(contact)))
+}
+
+/// The same chart without the contact, which does not change the map.
+#[must_use]
+pub fn without_contact(map: &ContactMap, plan: &Plan) -> Chart {
     let scenario = plan.scenario();
     let detection = &scenario.detection;
     let made = words::caption(&[
@@ -106,7 +122,7 @@ fn edges(middles: &[f64]) -> [f64; 2] {
     [middles.first().map_or(0.0, |first| first - half), middles.last().map_or(1.0, |last| last + half)]
 }
 
-fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
+fn panel(map: &ContactMap, plan: &Plan, kind: Kind) -> Panel {
     let scenario = plan.scenario();
     let (unit, scale) = kind.unit();
     let values = kind.values(map);
@@ -124,9 +140,6 @@ fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
     });
     let (x, y) = (edges(&map.bends), edges(&map.arc_lengths));
     let angle = Axis { steps: Steps::Degrees, ..Axis::new("Bend at contact", "rad", "°", words::angle().scale) };
-    let target = |contact: &crate::scenario::plan::PlannedContact| {
-        Series::new("", Role::Detection, Style::Targets, vec![[contact.bend, contact.arc_length]])
-    };
     let rung = |(k, &y): (usize, &f64)| Rung { name: format!("disk {}", k + 1), y };
     Panel {
         title: kind.title().into(),
@@ -143,7 +156,6 @@ fn panel(map: &Map, plan: &Plan, kind: Kind) -> Panel {
             level,
             line,
         }),
-        series: plan.contact().map(target).into_iter().collect(),
         rungs: scenario.robot.disks.iter().enumerate().map(rung).collect(),
         ..Panel::new(
             Axis { range: Some(x), ..angle },

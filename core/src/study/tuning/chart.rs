@@ -3,12 +3,17 @@
 //! Shares lie on an arcsine scale: both ends, where thresholds are chosen, are spread, and intervals from equally many runs are
 //! about equally wide everywhere.
 
+mod places;
+
+pub use places::places;
+
 use super::recommend::{Verdict, Wish};
 use super::watch::Rule;
 use super::{Point, Study};
 use crate::chart::notation::plain;
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Band, Chart, Panel, Role, Series, Style, Vertical};
+use crate::scenario::Override;
 use crate::study::Job;
 use crate::study::figure::words;
 
@@ -17,7 +22,7 @@ const CELLS: usize = 12;
 /// A delay's axis reaches beyond the longest by this share of it.
 const MARGIN: f64 = 0.04;
 
-/// What all thresholds of one method come to, and how that is drawn.
+/// What all thresholds of one rule come to, and how that is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve<'a> {
     /// Name in the legend.
@@ -32,10 +37,10 @@ pub struct Curve<'a> {
     pub points: &'a [Point],
 }
 
-/// What a method means in a chart, and whether its line is dashed.
+/// What a rule means in a chart, and whether its line is dashed.
 #[must_use]
-pub fn look(method: Rule) -> (Role, bool) {
-    match method {
+pub fn look(rule: Rule) -> (Role, bool) {
+    match rule {
         Rule::Fcd => (Role::Sensor, false),
         Rule::Jfd => (Role::Force, false),
         Rule::Or => (Role::Bound, false),
@@ -43,10 +48,10 @@ pub fn look(method: Rule) -> (Role, bool) {
     }
 }
 
-/// How a method is called.
+/// How a rule is called.
 #[must_use]
-pub fn name(method: Rule) -> &'static str {
-    match method {
+pub fn name(rule: Rule) -> &'static str {
+    match rule {
         Rule::Fcd => "Centrode",
         Rule::Jfd => "Forces",
         Rule::Or => "Either",
@@ -130,41 +135,41 @@ pub fn mark(panel: &mut Panel, role: Role, style: Style, at: Option<[f64; 2]>) {
     panel.series.extend(at.map(|at| Series::new("", role, style, vec![at])));
 }
 
-/// A study as the command draws it: all methods in the advised cell, or the first; the wished-for method's delays in each cell.
+/// A study as the command draws it: all rules in the advised cell, or the first; the wished-for rule's delays in each cell.
 #[must_use]
 pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Chart {
     let cell = if let Verdict::Take { cell, .. } = verdict { *cell } else { 0 };
-    let set = study.cells().get(cell).map_or_else(String::new, |cell| plain(&cell.set.join(", ")));
+    let set = study.cells().get(cell).map_or_else(String::new, |cell| plain(&joined(&cell.set)));
     let rate = wish.false_alarm_rate;
-    let own = |method| study.own(cell, method).map(|level| study.point(cell, method, level));
+    let own = |rule| study.own(cell, rule).map(|level| study.point(cell, rule, level));
     let advised = if let Verdict::Take { point, .. } = verdict { Some(&**point) } else { None };
 
-    let points = Rule::ALL.map(|method| study.curve(cell, method));
-    let curves = Rule::ALL.iter().zip(&points).map(|(&method, points)| {
-        let (role, dashed) = look(method);
-        Curve { name: name(method).into(), role, dashed, faint: false, points }
+    let points: Vec<_> = Rule::ALL.iter().map(|&rule| study.curve(cell, rule)).collect();
+    let curves = Rule::ALL.iter().zip(&points).map(|(&rule, points)| {
+        let (role, dashed) = look(rule);
+        Curve { name: name(rule).into(), role, dashed, faint: false, points }
     });
     let mut first = operating(&curves.collect::<Vec<_>>(), rate);
     if !set.is_empty() {
         first.title = format!("{}, {set}", first.title);
     }
-    for method in Rule::ALL {
-        mark(&mut first, look(method).0, Style::Dots, own(method).as_ref().and_then(found));
+    for &rule in Rule::ALL {
+        mark(&mut first, look(rule).0, Style::Dots, own(rule).as_ref().and_then(found));
     }
     mark(&mut first, Role::Choice, Style::Rings, advised.and_then(found));
 
     let count = study.cells().len().min(CELLS);
-    let points: Vec<_> = (0..count).map(|cell| study.curve(cell, wish.method)).collect();
+    let points: Vec<_> = (0..count).map(|cell| study.curve(cell, wish.rule)).collect();
     let curves = study.cells().iter().zip(&points).enumerate().map(|(k, (cell, points))| {
         let member = Role::Member(k as f64 / (count.max(2) - 1) as f64);
         let (name, role) = match cell.set.is_empty() {
-            true => ("As set".into(), look(wish.method).0),
-            false => (plain(&cell.set.join(", ")), member),
+            true => ("As set".into(), look(wish.rule).0),
+            false => (plain(&joined(&cell.set)), member),
         };
         Curve { name, role, dashed: false, faint: false, points }
     });
     let mut second = delays(&curves.collect::<Vec<_>>(), rate, late(study));
-    mark(&mut second, Role::Bound, Style::Dots, own(wish.method).as_ref().and_then(delay));
+    mark(&mut second, Role::Bound, Style::Dots, own(wish.rule).as_ref().and_then(delay));
     mark(&mut second, Role::Choice, Style::Rings, advised.and_then(delay));
 
     Chart {
@@ -172,6 +177,11 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
         panels: vec![first, second],
         caption: caption(study, wish, advised.is_some(), partial),
     }
+}
+
+/// What a cell changes, as it is written.
+fn joined(set: &[Override]) -> String {
+    set.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }
 
 /// Top of the delays, s: no run is longer.
@@ -188,7 +198,7 @@ fn caption(study: &Study, wish: &Wish, advised: bool, partial: bool) -> String {
         true => format!("PARTIAL: {} of {} runs", progress.done, progress.of),
         false => format!("{} repeats with contact and without", spec.repeats),
     };
-    let swept = study.cells().iter().flat_map(|cell| &cell.set).any(|set| set.starts_with("filter.length="));
+    let swept = study.cells().iter().flat_map(|cell| &cell.set).any(|set| set.path() == "filter.length");
     let filter = if swept { String::new() } else { format!(", N = {}", spec.scenario.filter.length) };
     let left_out = study.cells().len().saturating_sub(CELLS);
     let more = if left_out > 0 { format!(" {left_out} more cells are not drawn.") } else { String::new() };
@@ -196,14 +206,14 @@ fn caption(study: &Study, wish: &Wish, advised: bool, partial: bool) -> String {
     format!(
         "Simulated by Centrode, {made}: tracker noise {} and {}, load cell noise {} N, ε_τ = {}{filter}; alarms more than {} s \
          after contact are missed.\n\
-         Bands: corners of the 95 % intervals of both axes. Shares lie on an arcsine scale. Delays are those of method {}.{more}\n\
+         Bands: corners of the 95 % intervals of both axes. Shares lie on an arcsine scale. Delays are those of rule {}.{more}\n\
          Dots: thresholds as set. Dashed line: {} false alarms. Ring: soonest with at most that many{none}.",
         words::millimetres(tracker.position_noise),
         words::degrees(tracker.orientation_noise),
         words::plain(cells.noise),
         words::percent(cells.epsilon_tau),
         spec.late,
-        wish.method.name(),
+        wish.rule.name(),
         words::percent(wish.false_alarm_rate),
     )
 }

@@ -1,7 +1,8 @@
 //! The thresholds that a study looks at, all in one pass over each run.
 
+use crate::detect::Method;
 use crate::model::Configuration;
-use crate::scenario::{Scenario, Xi1Rule};
+use crate::scenario::{Scenario, Thresholds, Xi1Rule};
 use libm::{floor, log10};
 use serde::{Deserialize, Serialize};
 
@@ -10,30 +11,55 @@ const FINE: u64 = 200;
 const COARSE: u64 = 10;
 const COARSE_COUNT: u64 = 40;
 
-/// Thresholds of both values, rising.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Levels {
-    /// Of ξ2, m.
-    pub xi2: Vec<f64>,
-    /// Of ξ1: N·m while it is a constant, k in k·ε_c while it follows the shape.
-    pub xi1: Vec<f64>,
-}
+/// Thresholds by detector, rising: ξ2 in m; ξ1 in N·m while it is a constant, or k in k·ε_c while it follows the shape.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Levels(Vec<(Method, Vec<f64>)>);
 
 impl Levels {
-    /// Levels that suit a scenario's robot, in round steps, with the scenario's own thresholds among them.
+    /// Levels that suit a scenario's robot, in round steps.
     ///
     /// ξ2 goes up in steps of about L/300 (0.1 mm for the paper's robot), ξ1 in steps of about a hundredth of the bending
     /// moment at one radian (1 mN·m), k in steps of 0.05: 200 steps, then 40 tenfold ones.
     #[must_use]
-    pub fn of(scenario: &Scenario) -> Self {
+    pub fn usual(scenario: &Scenario) -> Self {
         let segment = scenario.robot.segment();
-        let detection = &scenario.detection;
         let moment = segment.energy_gradient(&Configuration::new(1.0, 0.0)).theta_l.abs();
-        let (unit, own) = match detection.xi1_rule {
-            Xi1Rule::Constant => (round_unit(moment / 100.0), detection.xi1.value()),
-            Xi1Rule::Bound => ((5, -2), Some(detection.xi1_factor)),
+        let step = |detector| match (detector, scenario.detection.xi1_rule) {
+            (Method::Fcd, _) => round_unit(segment.length / 300.0),
+            (Method::Jfd, Xi1Rule::Constant) => round_unit(moment / 100.0),
+            (Method::Jfd, Xi1Rule::Bound) => (5, -2),
         };
-        Self { xi2: rising(round_unit(segment.length / 300.0), detection.xi2.value()), xi1: rising(unit, own) }
+        Self(Method::ALL.iter().map(|&detector| (detector, rising(step(detector)))).collect())
+    }
+
+    /// The levels of a detector; empty where it has none.
+    #[must_use]
+    pub fn of(&self, detector: Method) -> &[f64] {
+        self.0.iter().find(|(known, _)| *known == detector).map_or(&[], |(_, levels)| levels)
+    }
+
+    /// Gives a detector other levels, rising.
+    pub fn put(&mut self, detector: Method, levels: Vec<f64>) {
+        match self.0.iter_mut().find(|(known, _)| *known == detector) {
+            Some((_, known)) => *known = levels,
+            None => self.0.push((detector, levels)),
+        }
+    }
+
+    /// The same, with the levels that `other` has in place of its own.
+    #[must_use]
+    pub fn replaced(mut self, other: &Self) -> Self {
+        other.0.iter().for_each(|(detector, levels)| self.put(*detector, levels.clone()));
+        self
+    }
+
+    /// The same, with what a scenario sets among them.
+    #[must_use]
+    pub fn with_own(mut self, thresholds: &Thresholds) -> Self {
+        for (detector, levels) in &mut self.0 {
+            with(levels, detector.setting(thresholds));
+        }
+        self
     }
 }
 
@@ -51,16 +77,14 @@ fn scaled(value: u64, power: i32) -> f64 {
     format!("{value}e{power}").parse().unwrap_or(f64::NAN)
 }
 
-fn rising((factor, power): (u64, i32), own: Option<f64>) -> Vec<f64> {
+fn rising((factor, power): (u64, i32)) -> Vec<f64> {
     let fine = 1..=FINE;
     let coarse = (1..=COARSE_COUNT).map(|k| FINE + k * COARSE);
-    let mut levels: Vec<f64> = fine.chain(coarse).map(|k| scaled(k * factor, power)).collect();
-    with(&mut levels, own);
-    levels
+    fine.chain(coarse).map(|k| scaled(k * factor, power)).collect()
 }
 
 /// Puts a level in its place, unless it is there.
-pub fn with(levels: &mut Vec<f64>, own: Option<f64>) {
+fn with(levels: &mut Vec<f64>, own: Option<f64>) {
     if let Some(own) = own
         && let Err(place) = levels.binary_search_by(|level| level.total_cmp(&own))
     {
@@ -75,12 +99,13 @@ mod tests {
 
     #[test]
     fn levels_of_the_papers_robot_are_those_of_its_sliders() {
-        let levels = Levels::of(&Scenario::default());
-        assert_eq!(levels.xi2[..3], [1e-4, 2e-4, 3e-4]);
-        assert_eq!(levels.xi2[69], 0.007);
-        assert_eq!(levels.xi2.len(), 240);
-        assert_eq!(levels.xi1[..2], [0.001, 0.002]);
-        assert!(levels.xi1.contains(&0.03));
+        let levels = Levels::usual(&Scenario::default());
+        let [xi2, xi1] = [Method::Fcd, Method::Jfd].map(|detector| levels.of(detector));
+        assert_eq!(xi2[..3], [1e-4, 2e-4, 3e-4]);
+        assert_eq!(xi2[69], 0.007);
+        assert_eq!(xi2.len(), 240);
+        assert_eq!(xi1[..2], [0.001, 0.002]);
+        assert!(xi1.contains(&0.03));
     }
 
     #[test]
@@ -91,12 +116,23 @@ mod tests {
         scenario.detection.xi1_factor = 1.234;
         for length in [1e-3, 0.03, 0.1, 7.7, 100.0] {
             scenario.robot.length = length;
-            let levels = Levels::of(&scenario);
-            assert!(levels.xi2.contains(&0.007_123) && levels.xi1.contains(&1.234));
-            for values in [&levels.xi2, &levels.xi1] {
+            let levels = Levels::usual(&scenario).with_own(&scenario.detection);
+            for (detector, own) in [(Method::Fcd, 0.007_123), (Method::Jfd, 1.234)] {
+                let values = levels.of(detector);
+                assert!(values.contains(&own), "{detector:?}: {values:?}");
                 assert!(values.is_sorted_by(|a, b| a < b) && values[0] > 0.0, "{values:?}");
             }
         }
+    }
+
+    #[test]
+    fn levels_that_are_given_replace_the_usual_ones_of_their_detector() {
+        let mut given = Levels::default();
+        given.put(Method::Jfd, vec![0.01, 0.02]);
+        let usual = Levels::usual(&Scenario::default());
+        let levels = usual.clone().replaced(&given);
+        assert_eq!(levels.of(Method::Jfd), [0.01, 0.02]);
+        assert_eq!(levels.of(Method::Fcd), usual.of(Method::Fcd));
     }
 
     #[test]

@@ -8,7 +8,7 @@ pub const Z: f64 = 1.959_963_984_540_054;
 
 /// How often something happened, with its 95 % interval (Wilson's score interval).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Rate {
+pub struct Share {
     /// Times it happened.
     pub count: u64,
     /// Times it could have.
@@ -21,7 +21,7 @@ pub struct Rate {
     pub high: f64,
 }
 
-impl Rate {
+impl Share {
     /// `count` of `of`. Of none, the share is not defined and may be anything from 0 to 1.
     #[must_use]
     pub fn new(count: u64, of: u64) -> Self {
@@ -58,11 +58,11 @@ mod tests {
     fn intervals_are_those_of_the_tables() {
         // Wilson's intervals for 0 of 10, 5 of 10 and 81 of 263, as statistics packages print them.
         for (count, of, low, high) in [(0, 10, 0.0, 0.2775), (5, 10, 0.2366, 0.7634), (81, 263, 0.2553, 0.3662)] {
-            let rate = Rate::new(count, of);
+            let rate = Share::new(count, of);
             assert!((rate.low - low).abs() < 5e-5 && (rate.high - high).abs() < 5e-5, "{rate:?}");
         }
-        assert_eq!((Rate::new(10, 10).high, Rate::new(0, 10).low), (1.0, 0.0));
-        assert!(Rate::new(0, 0).rate.is_nan());
+        assert_eq!((Share::new(10, 10).high, Share::new(0, 10).low), (1.0, 0.0));
+        assert!(Share::new(0, 0).rate.is_nan());
     }
 
     #[test]
@@ -73,7 +73,7 @@ mod tests {
             let mut probability = libm::pow(1.0 - truth, of as f64);
             let mut covered = 0.0;
             for count in 0..=of {
-                let rate = Rate::new(count, of);
+                let rate = Share::new(count, of);
                 if (rate.low..=rate.high).contains(&truth) {
                     covered += probability;
                 }
@@ -87,7 +87,7 @@ mod tests {
     fn so_many_silent_runs_show_a_rate_and_one_less_does_not() {
         for rate in [0.5, 0.05, 0.01, 0.001] {
             let runs = runs_to_show(rate);
-            assert!(Rate::new(0, runs).high <= rate && Rate::new(0, runs - 1).high > rate, "{rate}: {runs}");
+            assert!(Share::new(0, runs).high <= rate && Share::new(0, runs - 1).high > rate, "{rate}: {runs}");
         }
     }
 }

@@ -9,7 +9,8 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Wish {
     /// How alarms are raised.
-    pub method: Rule,
+    #[serde(rename = "method")]
+    pub rule: Rule,
     /// The most runs without contact that may alarm, as a share above 0 and below 1.
     pub false_alarm_rate: f64,
 }
@@ -64,9 +65,11 @@ pub fn recommend_among(study: &Study, cells: impl IntoIterator<Item = usize>, wi
     let mut best: Option<(usize, usize, Point)> = None;
     let mut contact = false;
     for cell in cells {
-        runs = runs.max(study.repeats(cell).0);
-        contact |= study.contact_time(cell).is_some();
-        for (level, point) in study.curve(cell, wish.method).into_iter().enumerate() {
+        let (free, held) = study.runs(cell, wish.rule);
+        runs = runs.max(free);
+        // Whether the robot reaches the beam, the first run will say.
+        contact = contact || held.is_some_and(|held| held == 0 || study.contact_time(cell).is_some());
+        for (level, point) in study.curve(cell, wish.rule).into_iter().enumerate() {
             let upper = point.false_alarms.rate.high;
             lowest = lowest.min(upper);
             let Some(detection) = point.detection.filter(|_| upper <= wish.false_alarm_rate) else { continue };

@@ -2,7 +2,7 @@
 
 use crate::scenario::keys::{self, Allowed, Key, Quantity, Value};
 use crate::scenario::text::number;
-use crate::scenario::{Refused, ScenarioError};
+use crate::scenario::{Override, Refused, ScenarioError};
 use std::str::FromStr;
 use thiserror::Error;
 
@@ -123,14 +123,15 @@ impl Sweep {
     }
 }
 
-/// Every combination of the sweeps' values as overrides, the last sweep changing fastest; one empty one without sweeps.
+/// Every combination of the sweeps' values, the last sweep changing fastest; one empty one without sweeps.
 ///
 /// Ends of ranges may miss whole numbers: where a key holds whole numbers, values are rounded to one.
 ///
 /// # Errors
-/// When a key is swept twice, or there are too many.
-pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, SweepError> {
-    let mut cells: Vec<Vec<String>> = vec![Vec::new()];
+/// [`SweepError::Twice`] when a key is swept twice, [`SweepError::Many`] when there are more than [`MAX_CELLS`],
+/// [`SweepError::Scenario`] when there is no such key or it holds no such value.
+pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<Override>>, SweepError> {
+    let mut cells: Vec<Vec<Override>> = vec![Vec::new()];
     for (k, sweep) in sweeps.iter().enumerate() {
         if sweeps[..k].iter().any(|before| before.key == sweep.key) {
             return Err(SweepError::Twice(sweep.key.clone()));
@@ -139,17 +140,17 @@ pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, SweepError> {
             return Err(SweepError::Many(format!("the sweeps make more than {MAX_CELLS} combinations")));
         }
         let whole = keys::find(&sweep.key).is_some_and(Key::is_whole);
-        let mut values: Vec<String> = Vec::with_capacity(sweep.values.len());
+        let mut values: Vec<Override> = Vec::with_capacity(sweep.values.len());
         for value in &sweep.values {
             let rounded = value.parse::<f64>().ok().filter(|_| whole).map(|value| format!("{}", libm::rint(value)));
-            let value = rounded.unwrap_or_else(|| value.clone());
-            if !values.contains(&value) {
+            let value: Override = format!("{}={}", sweep.key, rounded.as_ref().unwrap_or(value)).parse()?;
+            if !values.iter().any(|known| known.written() == value.written()) {
                 values.push(value);
             }
         }
-        let with = |cell: &Vec<String>, value: &String| {
+        let with = |cell: &Vec<Override>, value: &Override| {
             let mut cell = cell.clone();
-            cell.push(format!("{}={value}", sweep.key));
+            cell.push(value.clone());
             cell
         };
         cells = cells.iter().flat_map(|cell| values.iter().map(move |value| with(cell, value))).collect();
@@ -203,7 +204,10 @@ mod tests {
             ["filter.length=100:150:3", "contact.disk=1,2"].map(|text| text.parse().expect(text)).into();
         let cells = combinations(&sweeps).expect("cells");
         assert_eq!(cells.len(), 6);
-        assert_eq!(cells[1], ["filter.length=100", "contact.disk=2"]);
+        assert_eq!(
+            cells[1].iter().map(ToString::to_string).collect::<Vec<_>>(),
+            ["filter.length=100", "contact.disk=2"]
+        );
         let sweep: Sweep = "filter.length=1:3:9".parse().expect("a sweep");
         assert_eq!(combinations(std::slice::from_ref(&sweep)).expect("cells").len(), 3);
         assert!(combinations(&[sweep.clone(), sweep]).is_err());

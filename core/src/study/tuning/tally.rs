@@ -1,6 +1,6 @@
 //! What repeats of one scenario came to: whole numbers, so that the order in which they are added changes nothing.
 
-use super::rate::{Rate, wilson};
+use super::rate::{Share, wilson};
 use super::watch::{Firsts, NEVER, Rule};
 use libm::{ceil, sqrt};
 use serde::{Deserialize, Serialize};
@@ -14,8 +14,6 @@ pub struct Clock {
     pub armed: u32,
     /// The run's length.
     pub samples: u32,
-    /// Truth: the first sample in contact.
-    pub contact: Option<u32>,
     /// An alarm more than this after contact comes too late.
     pub late: u32,
 }
@@ -40,37 +38,52 @@ pub struct Count {
 pub struct Tally {
     /// Runs counted.
     pub runs: u64,
+    /// Truth: the first sample in contact; none without contact or before the first run.
+    pub contact: Option<u32>,
     /// By rule and level; empty before the first run, so that what is not begun takes no memory.
     pub counts: Vec<Vec<Count>>,
+}
+
+/// What is counted of one threshold, in so many runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Counted<'a> {
+    /// Runs counted.
+    pub runs: u64,
+    /// What they came to.
+    pub count: &'a Count,
 }
 
 impl Tally {
     /// Counts one run in.
     pub fn add(&mut self, firsts: &Firsts, clock: &Clock) {
         self.runs += 1;
-        self.counts.resize_with(firsts.len(), Vec::new);
-        for (counts, firsts) in self.counts.iter_mut().zip(firsts) {
-            counts.resize_with(firsts.len(), Count::default);
-            for (count, &first) in counts.iter_mut().zip(firsts) {
-                count.add(first, clock);
+        self.contact = firsts.contact;
+        self.counts.resize_with(firsts.alarms.len(), Vec::new);
+        for (counts, alarms) in self.counts.iter_mut().zip(&firsts.alarms) {
+            counts.resize_with(alarms.len(), Count::default);
+            for (count, &first) in counts.iter_mut().zip(alarms) {
+                count.add(first, firsts.contact, clock);
             }
         }
     }
 
     /// What the runs say about one threshold.
     #[must_use]
-    pub fn count(&self, rule: Rule, level: usize) -> &Count {
-        static NONE: Count = Count { early: 0, early_samples: 0, late: 0, found: Vec::new() };
-        self.counts.get(rule as usize).map_or(&NONE, |counts| &counts[level])
+    pub fn counted(&self, rule: Rule, level: usize) -> Counted<'_> {
+        let counts = self.counts.get(rule as usize);
+        Counted { runs: self.runs, count: counts.map_or(&NONE, |counts| &counts[level]) }
     }
 }
 
+/// Before the first run.
+static NONE: Count = Count { early: 0, early_samples: 0, late: 0, found: Vec::new() };
+
 impl Count {
-    fn add(&mut self, first: u32, clock: &Clock) {
+    fn add(&mut self, first: u32, contact: Option<u32>, clock: &Clock) {
         if first == NEVER {
             return;
         }
-        match clock.contact {
+        match contact {
             Some(contact) if first >= contact => {
                 let delay = first - contact;
                 if delay > clock.late {
@@ -99,7 +112,7 @@ impl Count {
 pub struct FalseAlarms {
     /// Runs with an alarm.
     #[serde(flatten)]
-    pub rate: Rate,
+    pub rate: Share,
     /// Mean time to false alarm, s: the time watched, from arming to alarm or end, for each alarm (the estimate under a
     /// constant hazard, which counts silent runs too). NaN without an alarm.
     pub mean_time: f64,
@@ -113,11 +126,11 @@ pub struct FalseAlarms {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Found {
     /// Alarms before contact, of all runs.
-    pub early: Rate,
+    pub early: Share,
     /// Contacts found in time, of those met without an alarm before.
-    pub detected: Rate,
+    pub detected: Share,
     /// Contacts not found in time, of the same: never, or late.
-    pub missed: Rate,
+    pub missed: Share,
     /// Alarms after contact that came too late; they are among the missed.
     pub late: u64,
     /// Mean delay of those found, s; NaN of none.
@@ -136,26 +149,19 @@ pub struct Found {
 
 /// False alarms, from the runs without contact.
 #[must_use]
-pub fn false_alarms(tally: &Tally, clock: &Clock, rule: Rule, level: usize) -> FalseAlarms {
-    let count = tally.count(rule, level);
-    let silent = tally.runs - count.early;
+pub fn false_alarms(Counted { runs, count }: Counted<'_>, clock: &Clock) -> FalseAlarms {
+    let silent = runs - count.early;
     let whole = u64::from(clock.samples.saturating_sub(clock.armed));
     let watched = (count.early_samples + silent * whole) as f64 / clock.rate;
     let alarms = count.early as f64;
     let mean_time = if count.early > 0 { watched / alarms } else { f64::NAN };
-    FalseAlarms {
-        rate: Rate::new(count.early, tally.runs),
-        mean_time,
-        mean_time_error: mean_time / sqrt(alarms),
-        watched,
-    }
+    FalseAlarms { rate: Share::new(count.early, runs), mean_time, mean_time_error: mean_time / sqrt(alarms), watched }
 }
 
 /// Contacts found and missed, from the runs with contact.
 #[must_use]
-pub fn detection(tally: &Tally, clock: &Clock, rule: Rule, level: usize) -> Found {
-    let count = tally.count(rule, level);
-    let (met, found) = (tally.runs - count.early, count.found());
+pub fn detection(Counted { runs, count }: Counted<'_>, clock: &Clock) -> Found {
+    let (met, found) = (runs - count.early, count.found());
     let seconds = |samples: f64| samples / clock.rate;
     let sum: u64 = count.found.iter().map(|&(delay, runs)| u64::from(delay) * u64::from(runs)).sum();
     let squares: u128 = count.found.iter().map(|&(delay, runs)| u128::from(delay).pow(2) * u128::from(runs)).sum();
@@ -165,9 +171,9 @@ pub fn detection(tally: &Tally, clock: &Clock, rule: Rule, level: usize) -> Foun
     let [low, high] = if met > 0 { wilson(0.5, met as f64) } else { [0.5; 2] };
     let quantile = |share: f64| seconds(quantile(&count.found, met, share));
     Found {
-        early: Rate::new(count.early, tally.runs),
-        detected: Rate::new(found, met),
-        missed: Rate::new(met - found, met),
+        early: Share::new(count.early, runs),
+        detected: Share::new(found, met),
+        missed: Share::new(met - found, met),
         late: count.late,
         mean: if found > 0 { seconds(sum as f64 / n) } else { f64::NAN },
         mean_error: if found > 1 { seconds(sqrt(spread as f64 / (n * n * (n - 1.0)))) } else { f64::NAN },
@@ -199,11 +205,17 @@ fn quantile(found: &[(u32, u32)], met: u64, share: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const CLOCK: Clock = Clock { rate: 1000.0, armed: 5000, samples: 10_001, contact: Some(6000), late: 500 };
+    const CLOCK: Clock = Clock { rate: 1000.0, armed: 5000, samples: 10_001, late: 500 };
 
     fn tally(firsts: &[u32]) -> Tally {
+        tally_of(firsts, Some(6000))
+    }
+
+    fn tally_of(firsts: &[u32], contact: Option<u32>) -> Tally {
         let mut tally = Tally::default();
-        firsts.iter().for_each(|&first| tally.add(&vec![vec![first], vec![NEVER], vec![first], vec![NEVER]], &CLOCK));
+        for &first in firsts {
+            tally.add(&Firsts { alarms: vec![vec![first], vec![NEVER], vec![first], vec![NEVER]], contact }, &CLOCK);
+        }
         tally
     }
 
@@ -211,7 +223,7 @@ mod tests {
     fn an_alarm_is_early_found_late_or_missing() {
         // Early, at contact, in time (twice), just in time, late, never (twice).
         let tally = tally(&[5500, 6000, 6100, 6100, 6500, 6501, NEVER, NEVER]);
-        let seen = detection(&tally, &CLOCK, Rule::Fcd, 0);
+        let seen = detection(tally.counted(Rule::Fcd, 0), &CLOCK);
         assert_eq!((seen.early.count, seen.early.of), (1, 8));
         assert_eq!((seen.detected.count, seen.detected.of, seen.missed.count, seen.late), (4, 7, 3, 1));
         assert!((seen.mean - 0.175).abs() < 1e-15);
@@ -219,23 +231,19 @@ mod tests {
         assert!((seen.mean_error - sqrt(0.049_166_666_666_666_67 / 4.0)).abs() < 1e-12, "{}", seen.mean_error);
         assert_eq!(seen.median, 0.5);
         assert!(seen.ninety.is_nan() && seen.median_high.is_nan());
-        assert_eq!(detection(&tally, &CLOCK, Rule::Jfd, 0).detected.count, 0);
+        assert_eq!(detection(tally.counted(Rule::Jfd, 0), &CLOCK).detected.count, 0);
     }
 
     #[test]
     fn without_contact_every_alarm_is_false_and_silence_counts() {
-        let clock = Clock { contact: None, ..CLOCK };
-        let mut tally = Tally::default();
-        for first in [6000, 7001, NEVER, NEVER] {
-            tally.add(&vec![vec![first], vec![NEVER], vec![first], vec![NEVER]], &clock);
-        }
-        let alarms = false_alarms(&tally, &clock, Rule::Fcd, 0);
+        let tally = tally_of(&[6000, 7001, NEVER, NEVER], None);
+        let alarms = false_alarms(tally.counted(Rule::Fcd, 0), &CLOCK);
         assert_eq!((alarms.rate.count, alarms.rate.of), (2, 4));
         let watched = 1.0 + 2.001 + 2.0 * 5.001;
         assert!((alarms.watched - watched).abs() < 1e-12);
         assert!((alarms.mean_time - watched / 2.0).abs() < 1e-12);
         assert!((alarms.mean_time_error - watched / 2.0 / sqrt(2.0)).abs() < 1e-12);
-        assert!(false_alarms(&tally, &clock, Rule::Jfd, 0).mean_time.is_nan());
+        assert!(false_alarms(tally.counted(Rule::Jfd, 0), &CLOCK).mean_time.is_nan());
     }
 
     #[test]

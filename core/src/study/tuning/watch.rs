@@ -1,11 +1,9 @@
 //! When each threshold would first have raised an alarm: all of them in one pass over a run.
 
 use super::levels::Levels;
-use crate::detect::evidence::deviation;
-use crate::detect::filter::PoseFilter;
-use crate::detect::{Method as Detector, Standing, Statistic};
-use crate::scenario::{Plan, Thresholds, Xi1Rule};
-use crate::sensors::cells::SimulatedCells;
+use super::sight::Sight;
+use crate::detect::{Method as Detector, Statistic};
+use crate::scenario::{Plan, Thresholds};
 use crate::study::shared::Shared;
 use serde::{Deserialize, Serialize};
 
@@ -17,15 +15,24 @@ pub enum Rule {
     Fcd,
     /// By the joint force deviation above ξ1.
     Jfd,
-    /// By either; levels are those of ξ2, ξ1 is the scenario's.
+    /// By any detector; levels are those of ξ2, the other thresholds are the scenario's.
     Or,
-    /// By both being above at one instant; levels are those of ξ2, ξ1 is the scenario's.
+    /// By all detectors at one instant; levels are those of ξ2, the other thresholds are the scenario's.
     And,
+}
+
+/// Which of its detectors a rule wants to see above their thresholds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wants {
+    /// One, whichever it is.
+    Any,
+    /// Each of them at one instant.
+    All,
 }
 
 impl Rule {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Fcd, Self::Jfd, Self::Or, Self::And];
+    pub const ALL: &'static [Self] = &[Self::Fcd, Self::Jfd, Self::Or, Self::And];
 
     /// Short name, as in files and on the command line.
     #[must_use]
@@ -38,31 +45,103 @@ impl Rule {
         }
     }
 
-    /// The detectors that it looks at.
+    /// The detectors that it looks at, and which of them it wants above their thresholds. The first is the one whose threshold
+    /// takes every level; the others have the scenario's.
     #[must_use]
-    pub fn detectors(self) -> &'static [Detector] {
+    pub fn alarm(self) -> (Wants, &'static [Detector]) {
         match self {
-            Self::Fcd => &[Detector::Fcd],
-            Self::Jfd => &[Detector::Jfd],
-            Self::Or | Self::And => &[Detector::Fcd, Detector::Jfd],
+            Self::Fcd => (Wants::Any, &[Detector::Fcd]),
+            Self::Jfd => (Wants::Any, &[Detector::Jfd]),
+            Self::Or => (Wants::Any, Detector::ALL),
+            Self::And => (Wants::All, Detector::ALL),
         }
     }
 
-    /// The levels of its threshold: those of the first of its detectors.
+    /// The detector whose threshold takes every level.
+    #[must_use]
+    pub fn swept(self) -> Detector {
+        self.alarm().1.first().copied().unwrap_or(Detector::Fcd)
+    }
+
+    /// The detectors whose thresholds are the scenario's.
+    #[must_use]
+    pub fn fixed(self) -> &'static [Detector] {
+        self.alarm().1.get(1..).unwrap_or_default()
+    }
+
+    /// The levels of its threshold.
     #[must_use]
     pub fn levels(self, levels: &Levels) -> &[f64] {
-        match self.detectors().first() {
-            Some(Detector::Jfd) => &levels.xi1,
-            _ => &levels.xi2,
+        levels.of(self.swept())
+    }
+
+    /// Thresholds in which nothing is left that does not matter to its first alarms: rules that agree in them, in their levels
+    /// and in all else that is set raise the same alarms.
+    #[must_use]
+    pub fn matters(self, thresholds: &Thresholds) -> Thresholds {
+        let mut left = of_any_rule(thresholds);
+        for detector in Detector::ALL {
+            if *detector == self.swept() {
+                detector.forget_setting(&mut left);
+            } else if !self.fixed().contains(detector) {
+                detector.forget(&mut left);
+            }
+        }
+        left
+    }
+}
+
+/// Thresholds in which nothing is left that matters to the first alarms of no rule.
+#[must_use]
+pub fn of_any_rule(thresholds: &Thresholds) -> Thresholds {
+    // What ends an event does not matter to the first.
+    let Thresholds { release, hold, .. } = Thresholds::default();
+    let mut left = Thresholds { release, hold, ..thresholds.clone() };
+    for detector in Detector::ALL {
+        if Rule::ALL.iter().any(|rule| rule.fixed().contains(detector)) {
+            detector.tidy(&mut left);
+        } else {
+            detector.forget_setting(&mut left);
         }
     }
+    left
 }
 
 /// No alarm.
 pub const NEVER: u32 = u32::MAX;
 
-/// By rule and level, the sample of the first alarm, or [`NEVER`].
-pub type Firsts = Vec<Vec<u32>>;
+/// What one run came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Firsts {
+    /// By rule and level, the sample of the first alarm, or [`NEVER`].
+    pub alarms: Vec<Vec<u32>>,
+    /// Truth: the first sample in contact.
+    pub contact: Option<u32>,
+}
+
+/// What is known of one detector so far: while its value does not count, everything stays as it was.
+#[derive(Debug, Clone, Copy)]
+struct Lamp {
+    detector: Detector,
+    /// The scenario's own setting; none while switched off.
+    setting: Option<f64>,
+    /// The value that counted last; below every threshold before the first.
+    value: f64,
+    /// The unit of levels then.
+    unit: f64,
+    /// Whether it lay above the scenario's own threshold.
+    above: bool,
+}
+
+/// A rule, and how many of its levels have been crossed.
+#[derive(Debug, Clone)]
+struct Mark {
+    wants: Wants,
+    /// Places of the lamps: the one whose levels are crossed, and the others.
+    swept: usize,
+    fixed: Vec<usize>,
+    crossed: usize,
+}
 
 /// What has been crossed so far in one run.
 ///
@@ -70,56 +149,62 @@ pub type Firsts = Vec<Vec<u32>>;
 /// largest value so far: they are crossed in rising order, and one mark for each rule suffices.
 #[derive(Debug, Clone)]
 struct Watch<'a> {
-    levels: &'a Levels,
     thresholds: &'a Thresholds,
-    firsts: Firsts,
-    /// By rule, how many of its levels have been crossed.
-    crossed: Vec<usize>,
-    /// The centrode deviation last looked at: the alarm keeps its state while nothing is judged.
-    deviation: f64,
-    forces_above: bool,
+    lamps: Vec<Lamp>,
+    levels: Vec<&'a [f64]>,
+    marks: Vec<Mark>,
+    alarms: Vec<Vec<u32>>,
 }
 
 impl<'a> Watch<'a> {
     fn new(levels: &'a Levels, thresholds: &'a Thresholds) -> Self {
+        let lamp = |&detector: &Detector| Lamp {
+            detector,
+            setting: detector.setting(thresholds),
+            value: f64::NEG_INFINITY,
+            unit: 1.0,
+            above: false,
+        };
+        let place = |detector: Detector| Detector::ALL.iter().position(|&known| known == detector).unwrap_or_default();
+        let mark = |rule: &Rule| Mark {
+            wants: rule.alarm().0,
+            swept: place(rule.swept()),
+            fixed: rule.fixed().iter().map(|&detector| place(detector)).collect(),
+            crossed: 0,
+        };
+        let levels: Vec<_> = Rule::ALL.iter().map(|rule| rule.levels(levels)).collect();
         Self {
-            levels,
             thresholds,
-            firsts: Rule::ALL.iter().map(|rule| vec![NEVER; rule.levels(levels).len()]).collect(),
-            crossed: vec![0; Rule::ALL.len()],
-            deviation: f64::NEG_INFINITY,
-            forces_above: false,
+            lamps: Detector::ALL.iter().map(lamp).collect(),
+            marks: Rule::ALL.iter().map(mark).collect(),
+            alarms: levels.iter().map(|levels| vec![NEVER; levels.len()]).collect(),
+            levels,
         }
     }
 
-    /// Looks at both values of one sample; those that do not count leave the alarms as they were.
-    fn look(&mut self, sample: u32, [deviation, residual]: [Statistic; 2], shape_bound: f64) {
-        if let Some(residual) = residual.counted() {
-            let unit = match self.thresholds.xi1_rule {
-                Xi1Rule::Constant => 1.0,
-                Xi1Rule::Bound => shape_bound,
+    /// Looks at the values of one sample; those that do not count leave the alarms as they were.
+    fn look(&mut self, sample: u32, shape_bound: f64, mut sees: impl FnMut(Detector) -> Statistic) {
+        for lamp in &mut self.lamps {
+            if let Some(value) = sees(lamp.detector).counted() {
+                (lamp.value, lamp.unit) = (value, lamp.detector.unit(self.thresholds, shape_bound));
+                lamp.above = lamp.setting.is_some_and(|setting| value > setting * lamp.unit);
+            }
+        }
+        let lamps = &self.lamps;
+        for ((mark, levels), alarms) in self.marks.iter_mut().zip(&self.levels).zip(&mut self.alarms) {
+            let mut fixed = mark.fixed.iter().map(|&place| lamps[place].above);
+            let Lamp { value, unit, .. } = lamps[mark.swept];
+            // Whether the others decide by themselves.
+            let decided = match mark.wants {
+                Wants::Any => fixed.any(|above| above).then_some(true),
+                Wants::All => fixed.any(|above| !above).then_some(false),
             };
-            self.raise(Rule::Jfd, sample, |level| residual > level * unit);
-            self.forces_above = self.thresholds.xi1_at(shape_bound).is_some_and(|xi1| residual > xi1);
-        }
-        if let Some(deviation) = deviation.counted() {
-            self.deviation = deviation;
-            self.raise(Rule::Fcd, sample, |level| deviation > level);
-            self.raise(Rule::Or, sample, |level| deviation > level);
-        }
-        if self.forces_above {
-            self.raise(Rule::Or, sample, |_| true);
-            let deviation = self.deviation;
-            self.raise(Rule::And, sample, |level| deviation > level);
-        }
-    }
-
-    fn raise(&mut self, rule: Rule, sample: u32, above: impl Fn(f64) -> bool) {
-        let (levels, which) = (rule.levels(self.levels), rule as usize);
-        let crossed = &mut self.crossed[which];
-        while *crossed < levels.len() && above(levels[*crossed]) {
-            self.firsts[which][*crossed] = sample;
-            *crossed += 1;
+            while let Some(level) = levels.get(mark.crossed)
+                && decided.unwrap_or_else(|| value > level * unit)
+            {
+                alarms[mark.crossed] = sample;
+                mark.crossed += 1;
+            }
         }
     }
 }
@@ -127,36 +212,62 @@ impl<'a> Watch<'a> {
 /// Runs a plan and says when each level of each rule was first crossed. `shared` is what the plan's repeats have in common.
 #[must_use]
 pub fn first_alarms(plan: &Plan, levels: &Levels, shared: &Shared) -> Firsts {
-    let scenario = plan.scenario();
-    let (segment, thresholds) = (plan.segment(), &scenario.detection);
+    let thresholds = &plan.scenario().detection;
     let mut watch = Watch::new(levels, thresholds);
-    let mut filter = PoseFilter::new(&scenario.filter, scenario.loop_rate);
-    let mut cells = SimulatedCells::new(plan);
+    let mut sight = Sight::new(plan, shared);
     let script = shared.script();
     for (k, (step, reading)) in script.steps().iter().zip(script.readings(plan)).enumerate() {
-        filter.take(&reading);
-        let known = shared.residual(k);
-        let tau_lc = if known.is_none() { Some(cells.read(&step.tau)) } else { None };
-        if step.time < thresholds.armed_from {
-            continue;
+        sight.take(k, step, &reading);
+        if step.time >= thresholds.armed_from {
+            watch.look(k as u32, shared.expectation(k).shape_bound, |detector| sight.sees(detector, k, step));
         }
-        let expected = shared.expectation(k);
-        let residual = match (known, tau_lc) {
-            (Some(residual), _) => residual,
-            (None, Some(tau_lc)) => expected.residual(segment, &step.configuration, &tau_lc),
-            (None, None) => f64::NAN,
-        };
-        let standing = Detector::Jfd.standing(residual, 0.0, step.time, thresholds);
-        let forces = Statistic { value: residual, standing };
-        let centrode = if filter.turns_at_most(thresholds.min_speed) {
-            Statistic { value: f64::NAN, standing: Standing::Silent }
-        } else {
-            let motion = filter.motion();
-            let (_, value) = deviation(&expected.centrode, &motion);
-            let speed = motion.twist.angular.norm();
-            Statistic { value, standing: Detector::Fcd.standing(value, speed, step.time, thresholds) }
-        };
-        watch.look(k as u32, [centrode, forces], expected.shape_bound);
     }
-    watch.firsts
+    Firsts { alarms: watch.alarms, contact: script.contact_sample().map(|sample| sample as u32) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::Standing;
+    use crate::scenario::{Scenario, Threshold};
+
+    #[test]
+    fn any_and_all_are_made_of_what_each_detector_sees() {
+        let scenario = Scenario::default();
+        let thresholds = Thresholds { xi1: Threshold::On(0.02), ..scenario.detection };
+        let mut levels = Levels::default();
+        levels.put(Detector::Fcd, vec![0.004, 0.006]);
+        levels.put(Detector::Jfd, vec![0.01, 0.03]);
+        let mut watch = Watch::new(&levels, &thresholds);
+        let silent = f64::NAN;
+        for (sample, (deviation, residual)) in
+            [(0.003, 0.0), (0.005, 0.01), (silent, 0.025), (0.001, silent), (0.007, silent), (0.0, 0.04)]
+                .iter()
+                .enumerate()
+        {
+            watch.look(sample as u32, 0.0, |detector| {
+                let value = if detector == Detector::Fcd { *deviation } else { *residual };
+                let standing = if value.is_nan() { Standing::Silent } else { Standing::Counts };
+                Statistic { value, standing }
+            });
+        }
+        // Or: the forces alarm at 2 for all that the centrode has not; and: at 2 the centrode's last value still stands.
+        let expected = [[1, 4], [2, 5], [1, 2], [2, 4]];
+        for (rule, expected) in Rule::ALL.iter().zip(expected) {
+            assert_eq!(watch.alarms[*rule as usize], expected, "{rule:?}");
+        }
+    }
+
+    #[test]
+    fn the_first_alarm_of_a_rule_depends_on_what_matters_to_it_alone() {
+        let before = Thresholds::default();
+        let xi1 = Thresholds { xi1: Threshold::On(0.05), xi1_factor: 3.0, hold: 1.0, ..before.clone() };
+        let xi2 = Thresholds { xi2: Threshold::On(0.001), ..before.clone() };
+        let speed = Thresholds { min_speed: 0.1, ..before.clone() };
+        for &rule in Rule::ALL {
+            let same = |other: &Thresholds| rule.matters(other) == rule.matters(&before);
+            assert_eq!(same(&xi1), matches!(rule, Rule::Fcd | Rule::Jfd), "{rule:?}");
+            assert!(same(&xi2) && !same(&speed), "{rule:?}");
+        }
+    }
 }

@@ -1,8 +1,9 @@
 //! The core's scale in the interface's points.
 
 use centrode_core::chart::scale::Scale;
+use centrode_core::chart::ticks::Tick;
 use centrode_core::chart::ticks::ticks;
-pub use centrode_core::chart::ticks::{Steps, Tick, rounded};
+pub use centrode_core::chart::ticks::{Steps, rounded};
 
 /// Maps values to points of the screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,12 +14,6 @@ impl Axis {
     #[must_use]
     pub fn new(range: [f64; 2], ends: [f32; 2]) -> Self {
         Self(Scale::new(range, ends.map(f64::from)))
-    }
-
-    /// The scale itself.
-    #[must_use]
-    pub fn scale(&self) -> &Scale {
-        &self.0
     }
 
     /// Both ends of the range.

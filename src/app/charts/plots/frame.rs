@@ -1,14 +1,15 @@
-//! What every plot has: a title with read-outs, a grid, the time axis, and what happened when.
+//! What lies over every plot: a title with read-outs, the playback position, and the values under the pointer.
 
 use crate::app::charts::notation::{job, note};
-use crate::app::charts::plots::axis::{Axis, Steps};
-use crate::app::charts::plots::{Touch, View, end};
+use crate::app::charts::paint::Place;
+use crate::app::charts::plots::axis::Axis;
+use crate::app::charts::plots::{Touch, View};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
-use centrode_core::chart::decimate::{Column, columns, spans};
-use centrode_core::run::{Run, Sample};
+use centrode_core::chart::Style;
+use centrode_core::run::Sample;
 use egui::text::LayoutJob;
-use egui::{Align2, Color32, CursorIcon, FontId, Painter, PointerButton, Pos2, Rect, Sense, Shape, Stroke, Ui};
+use egui::{Color32, CursorIcon, Painter, PointerButton, Pos2, Rect, Sense, Shape, Stroke, Ui};
 use egui::{pos2, vec2};
 
 /// Size of titles and read-outs.
@@ -16,9 +17,9 @@ pub const TEXT: f32 = 12.5;
 /// Size of tick labels.
 pub const SMALL: f32 = 10.5;
 const TITLE: f32 = 22.0;
-const GUTTER: f32 = 38.0;
-const RIGHT: f32 = 8.0;
-const TIME_LABELS: f32 = 18.0;
+/// Room at the left and at the right of the data.
+pub const GUTTER: f32 = 38.0;
+pub const RIGHT: f32 = 8.0;
 
 /// Where a plot is, and its axes.
 #[derive(Debug, Clone, Copy)]
@@ -29,10 +30,10 @@ pub struct Frame {
     pub data: Rect,
     /// Time, s.
     pub time: Axis,
+    /// Values as they are shown.
+    pub values: Axis,
     /// The colours.
     pub theme: Theme,
-    labelled: bool,
-    pixel: f32,
 }
 
 /// A value at the playback position, and the line it belongs to.
@@ -47,30 +48,19 @@ pub struct ReadOut {
     pub style: Style,
 }
 
-/// How a line is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Style {
-    /// The quantity itself.
-    Strong,
-    /// What it is compared with.
-    Thin,
-    /// An alternative.
-    Dashed,
-}
-
 impl Frame {
-    /// Divides `outer`; `labelled` leaves room for the time axis.
-    pub fn new(outer: Rect, run: &Run, labelled: bool, theme: Theme, pixels_per_point: f32) -> Self {
-        let bottom = outer.bottom() - if labelled { TIME_LABELS } else { 5.0 };
-        let data =
-            Rect::from_min_max(pos2(outer.left() + GUTTER, outer.top() + TITLE), pos2(outer.right() - RIGHT, bottom));
-        let time = Axis::new([0.0, end(run)], [data.left(), data.right()]);
-        Self { outer, data, time, theme, labelled, pixel: 1.0 / pixels_per_point }
+    /// The place of the chart in that of the plot.
+    pub fn below_title(outer: Rect) -> Rect {
+        outer.with_min_y(outer.top() + TITLE)
     }
 
-    /// An axis of values over the plot's height.
-    pub fn values(&self, range: [f64; 2]) -> Axis {
-        Axis::new(range, [self.data.bottom(), self.data.top()])
+    /// The frame of a chart that was laid out; its values are multiplied by `scale` to be shown.
+    pub fn new(outer: Rect, place: &Place, scale: f64, theme: Theme) -> Self {
+        let data = place.data();
+        let [time, values] = place.ranges();
+        let time = Axis::new(time, [data.left(), data.right()]);
+        let values = Axis::new(values.map(|end| end * scale), [data.bottom(), data.top()]);
+        Self { outer, data, time, values, theme }
     }
 
     /// Title on the left, read-outs on the right; what does not fit gives way, least important first.
@@ -114,83 +104,6 @@ impl Frame {
         }
     }
 
-    /// Few lines, small numbers.
-    pub fn grid(&self, painter: &Painter, values: &Axis, steps: Steps) {
-        let (data, theme) = (self.data, &self.theme);
-        painter.rect_filled(data, 2.0, theme.panel);
-        let font = FontId::proportional(SMALL);
-        for tick in values.ticks(30.0, steps) {
-            let y = painter.round_to_pixel_center(values.at(tick.value));
-            painter.hline(data.x_range(), y, Stroke::new(1.0, theme.faint));
-            painter.text(pos2(data.left() - 5.0, y), Align2::RIGHT_CENTER, tick.text, font.clone(), theme.dim);
-        }
-        let ticks = self.time.ticks(46.0, Steps::Decimal);
-        let last = ticks.last().map_or(0.0, |tick| tick.value);
-        for tick in ticks {
-            let x = painter.round_to_pixel_center(self.time.at(tick.value));
-            painter.vline(x, data.y_range(), Stroke::new(1.0, theme.faint.gamma_multiply(0.6)));
-            if self.labelled {
-                painter.vline(x, data.bottom()..=data.bottom() + 3.0, Stroke::new(1.0, theme.dim));
-                let text = if tick.value == last { format!("{} s", tick.text) } else { tick.text };
-                let align = if x > data.right() - 12.0 { Align2::RIGHT_TOP } else { Align2::CENTER_TOP };
-                let x = if align == Align2::RIGHT_TOP { data.right() + 4.0 } else { x };
-                painter.text(pos2(x, data.bottom() + 4.0), align, text, font.clone(), theme.dim);
-            }
-        }
-        painter.hline(data.x_range(), painter.round_to_pixel_center(data.bottom()), Stroke::new(1.0, theme.dim));
-    }
-
-    /// Draws a channel; gives its columns.
-    pub fn curve(
-        &self,
-        painter: &Painter,
-        run: &Run,
-        values: &Axis,
-        value: impl Fn(&Sample) -> f64,
-        color: Color32,
-        style: Style,
-    ) -> Vec<Vec<Column>> {
-        let samples = run.samples().map(|sample| (sample.time, value(&sample)));
-        let stretches = columns(samples, self.time.scale(), self.pixel.into());
-        let painter = painter.with_clip_rect(self.data.intersect(painter.clip_rect()));
-        for stretch in &stretches {
-            let line: Vec<Pos2> = stretch
-                .iter()
-                .flat_map(|column| {
-                    // Less than a pixel of spread is one point: fewer to draw, and smoother.
-                    let (low, high) = (values.at(column.low), values.at(column.high));
-                    let x = column.x as f32;
-                    let flat = (low - high).abs() < self.pixel;
-                    let middle = pos2(x, 0.5 * (low + high));
-                    let ends = column.values().map(move |value| pos2(x, values.at(value)));
-                    std::iter::once(middle).filter(move |_| flat).chain(ends.filter(move |_| !flat))
-                })
-                .collect();
-            if let [point] = line[..] {
-                painter.circle_filled(point, 1.2, color);
-            } else {
-                stroke_line(&painter, line, color, style);
-            }
-        }
-        stretches
-    }
-
-    /// Says along the top edge where a curve leaves the plot.
-    pub fn off_scale(&self, painter: &Painter, values: &Axis, stretches: &[Vec<Column>], color: Color32) {
-        let top = values.range()[1];
-        let y = self.data.top();
-        for (from, to) in spans(stretches, |column| column.high > top) {
-            let (from, to) = (from as f32, to as f32);
-            let bar = Rect::from_min_max(pos2(from - 0.5, y), pos2(to + 0.5, y + 3.0)).intersect(self.data);
-            painter.rect_filled(bar, 0.0, color.gamma_multiply(0.45));
-            if to - from > 8.0 {
-                let x = 0.5 * (from + to);
-                let arrow = vec![pos2(x - 4.0, y + 9.0), pos2(x, y + 4.0), pos2(x + 4.0, y + 9.0)];
-                painter.add(Shape::convex_polygon(arrow, color, Stroke::NONE));
-            }
-        }
-    }
-
     /// Text for a time.
     pub fn clock(time: f64) -> String {
         format!("{time:.3} s")
@@ -198,15 +111,11 @@ impl Frame {
 }
 
 /// Draws a line in a style.
-pub fn stroke_line(painter: &Painter, line: Vec<Pos2>, color: Color32, style: Style) {
+fn stroke_line(painter: &Painter, line: Vec<Pos2>, color: Color32, style: Style) {
     match style {
-        Style::Strong => {
-            painter.line(line, Stroke::new(1.6, color));
-        }
-        Style::Thin => {
-            painter.line(line, Stroke::new(1.1, color));
-        }
         Style::Dashed => painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, color), 4.0, 3.0)),
+        Style::Thin => drop(painter.line(line, Stroke::new(1.1, color))),
+        _ => drop(painter.line(line, Stroke::new(1.6, color))),
     }
 }
 
@@ -248,8 +157,8 @@ impl View<'_> {
     }
 
     /// The playback position, with a dot on each line that has a value there.
-    pub fn cursor(&self, painter: &Painter, values: &Axis, dots: &[(f64, Color32)]) {
-        let (data, theme) = (self.frame.data, &self.frame.theme);
+    pub fn cursor(&self, painter: &Painter, dots: &[(f64, Color32)]) {
+        let Frame { data, theme, values, .. } = &self.frame;
         let x = painter.round_to_pixel_center(self.frame.time.at(self.cursor));
         painter.vline(x, data.top()..=data.bottom() + 3.0, Stroke::new(1.5, theme.ink));
         let cap = [pos2(x - 4.5, data.top() - 5.0), pos2(x + 4.5, data.top() - 5.0), pos2(x, data.top() + 1.0)];

@@ -1,48 +1,26 @@
-//! What happened when: arming, contact, crossings, the detection.
+//! What happened when: arming, events, the detection.
 
 use std::sync::Arc;
 
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::View;
-use crate::app::charts::plots::axis::{Axis, rounded};
+use crate::app::charts::plots::axis::rounded;
 use crate::app::charts::plots::frame::{Frame, SMALL, TEXT};
 use crate::app::command::Command;
-use centrode_core::detect::{Crossing, Method};
-use centrode_core::run::Run;
-use egui::{Align2, Color32, CursorIcon, FontId, Galley, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use centrode_core::detect::{Event, Method};
+use centrode_core::study::course::{Measure, measure};
+use egui::{Align2, Color32, CursorIcon, FontId, Galley, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
 
 /// Half the width in which the arming edge can be grabbed, points.
 const GRAB: f32 = 7.0;
-/// Marks nearer than this are one.
-const CROWDED: f32 = 8.0;
-
-/// How a plot shows and names the values it judges.
-#[derive(Debug, Clone, Copy)]
-pub struct Judged {
-    /// The method.
-    pub method: Method,
-    /// Its abbreviation.
-    pub name: &'static str,
-    /// Shown value per SI value.
-    pub scale: f64,
-    /// Unit shown.
-    pub unit: &'static str,
-    /// Decimals shown.
-    pub decimals: usize,
-}
+/// A mark can be pointed at from this far, points.
+const REACH: f32 = 9.0;
 
 impl View<'_> {
     /// Where alarms begin to be raised, points.
     fn armed_at(&self) -> f32 {
         let [start, end] = self.frame.time.range();
         self.frame.time.at(self.run.plan.scenario().detection.armed_from.clamp(start, end))
-    }
-
-    /// Shades the time before arming.
-    pub fn unarmed(&self, painter: &Painter) {
-        let (data, theme) = (self.frame.data, self.frame.theme);
-        let shade = Rect::from_min_max(data.min, pos2(self.armed_at(), data.bottom()));
-        painter.rect_filled(shade, 0.0, theme.dim.gamma_multiply(if theme.dark { 0.12 } else { 0.11 }));
     }
 
     /// Lets the edge between unarmed and armed be moved.
@@ -94,29 +72,6 @@ impl View<'_> {
         (galley, rect)
     }
 
-    /// The truth: a band along the axis while the beam holds the backbone.
-    pub fn contact(&self, painter: &Painter, height: f32) {
-        let (data, theme) = (self.frame.data, &self.frame.theme);
-        for (from, to) in contacts(self.run) {
-            let (left, right) = (self.frame.time.at(from), self.frame.time.at(to));
-            let band = Rect::from_min_max(pos2(left, data.bottom() - 4.0), pos2(right, data.bottom()));
-            painter.rect_filled(band, 0.0, theme.obstacle);
-            if height > 4.0 {
-                let veil = Rect::from_min_max(pos2(left, data.bottom() - height), pos2(right, data.bottom() - 4.0));
-                painter.rect_filled(veil, 0.0, theme.obstacle.gamma_multiply(0.16));
-            }
-        }
-    }
-
-    /// The detection, as a dashed line.
-    pub fn detection(&self, painter: &Painter) {
-        let Some(detection) = &self.run.detection() else { return };
-        let (data, theme) = (self.frame.data, &self.frame.theme);
-        let x = painter.round_to_pixel_center(self.frame.time.at(detection.time));
-        let line = [pos2(x, data.top()), pos2(x, data.bottom())];
-        painter.extend(Shape::dashed_line(&line, Stroke::new(1.4, theme.detection), 5.0, 3.5));
-    }
-
     /// When the detection is, in words beside its line.
     pub fn detection_label(&self, painter: &Painter) {
         let Some(detection) = &self.run.detection() else { return };
@@ -132,50 +87,38 @@ impl View<'_> {
         painter.galley(rect.min, galley, theme.detection);
     }
 
-    /// The crossings of a method; the one that the detection is made of stands out. Says what is under the pointer,
-    /// and whether anything was.
-    pub fn crossings(&self, ui: &Ui, painter: &Painter, values: &Axis, judged: Judged, color: Color32) -> bool {
+    /// Says which event of a detector is under the pointer, and whether any is.
+    pub fn event(&self, ui: &Ui, painter: &Painter, method: Method) -> bool {
         let theme = &self.frame.theme;
-        let pointer = ui.input(|input| input.pointer.hover_pos()).filter(|pos| self.frame.data.contains(*pos));
-        let mut near: Option<(f32, &Crossing, Pos2)> = None;
-        let mut last = f32::NEG_INFINITY;
-        for crossing in self.run.crossings().iter().filter(|crossing| crossing.method == judged.method) {
-            let at = pos2(self.frame.time.at(crossing.time), values.at(crossing.threshold * judged.scale));
-            let first = crossing.method == Method::Fcd
-                && self.run.detection().is_some_and(|detection| detection.time == crossing.time);
-            if at.x - last < CROWDED && !first {
-                continue;
-            }
-            last = at.x;
-            mark(painter, at, judged.method, first, if first { theme.detection } else { color }, theme.panel);
-            let away = pointer.map_or(f32::INFINITY, |pos| pos.distance(at));
-            if away < 9.0 && near.is_none_or(|(nearest, ..)| away < nearest) {
-                near = Some((away, crossing, at));
-            }
-        }
-        let Some((_, crossing, at)) = near else { return false };
-        let value = number(crossing.value * judged.scale, judged.decimals);
-        let lines = vec![
-            job(&format!("{} crosses its threshold", judged.name), TEXT - 1.0, theme.ink),
-            job(&format!("{}, {value} {}", Frame::clock(crossing.time), judged.unit), TEXT - 1.0, theme.dim),
-        ];
-        note(painter, theme, at, self.frame.data, lines);
+        let Some(pointer) = ui.input(|input| input.pointer.hover_pos()).filter(|pos| self.frame.data.contains(*pos))
+        else {
+            return false;
+        };
+        let own = self.run.judged.events.iter().filter(|event| event.detector == method);
+        let marks = own.flat_map(|event| {
+            let places = [Some(event.raised), event.cleared];
+            places.into_iter().flatten().map(move |time| (event, self.place.at([time, event.threshold])))
+        });
+        let near = marks.map(|(event, at)| (pointer.distance(at), event, at)).filter(|(away, ..)| *away < REACH);
+        let Some((_, event, at)) = near.min_by(|a, b| a.0.total_cmp(&b.0)) else { return false };
+        let lines = told(event).into_iter().enumerate();
+        let lines = lines.map(|(k, line)| job(&line, TEXT - 1.0, if k == 0 { theme.ink } else { theme.dim }));
+        note(painter, theme, at, self.frame.data, lines.collect());
         true
     }
 }
 
-/// A diamond for a detection, a ring for another crossing by FCD, a square for JFD.
-fn mark(painter: &Painter, at: Pos2, method: Method, first: bool, color: Color32, halo: Color32) {
-    let edge = Stroke::new(1.5, halo);
-    if first {
-        let points = [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|d| at + d);
-        painter.add(Shape::convex_polygon(points.to_vec(), color, edge));
-    } else if method == Method::Fcd {
-        painter.circle(at, 2.8, halo, Stroke::new(1.4, color));
-    } else {
-        let square = Rect::from_center_size(at, vec2(8.0, 8.0));
-        painter.rect(square, 1.0, color, edge, egui::StrokeKind::Middle);
-    }
+/// An event in words: which detector raised it when, over which threshold, and when it was cleared.
+fn told(event: &Event) -> [String; 3] {
+    let Measure { detector, symbol, threshold, scale, unit, decimals, .. } = measure(event.detector);
+    let shown = |value: f64| format!("{} {unit}", number(value * scale, decimals));
+    let cleared =
+        event.cleared.map_or("not cleared by the end".into(), |at| format!("cleared at {}", Frame::clock(at)));
+    [
+        format!("{detector}: alarm raised at {}", Frame::clock(event.raised)),
+        format!("{symbol} {} exceeds {threshold} {}", shown(event.value), shown(event.threshold)),
+        cleared,
+    ]
 }
 
 /// A label where it is wanted, or above another that it would cover: below, a threshold may be in the way.
@@ -185,22 +128,6 @@ fn above(label: Rect, other: Rect) -> Rect {
     } else {
         label
     }
-}
-
-/// Times during which the beam holds the backbone, s.
-#[must_use]
-pub fn contacts(run: &Run) -> Vec<(f64, f64)> {
-    let mut spans: Vec<(f64, f64)> = Vec::new();
-    let mut held = false;
-    for sample in run.samples() {
-        match spans.last_mut() {
-            Some(span) if sample.in_contact && held => span.1 = sample.time,
-            _ if sample.in_contact => spans.push((sample.time, sample.time)),
-            _ => {}
-        }
-        held = sample.in_contact;
-    }
-    spans
 }
 
 /// Explains an empty plot.
@@ -214,10 +141,6 @@ mod tests {
     use centrode_core::run::simulate;
     use centrode_core::scenario::preset;
 
-    fn run(name: &str) -> Run {
-        simulate(&preset::find(name).and_then(preset::Preset::scenario).expect("preset")).expect("run")
-    }
-
     #[test]
     fn labels_do_not_cover_each_other() {
         let other = Rect::from_min_size(pos2(100.0, 15.0), vec2(90.0, 14.0));
@@ -230,19 +153,16 @@ mod tests {
     }
 
     #[test]
-    fn contact_is_one_span_that_starts_at_the_truth() {
-        let run = run("paper");
-        let spans = contacts(&run);
-        assert_eq!(spans.len(), 1);
-        assert_eq!(Some(spans[0].0), run.contact_time());
-        assert_eq!(spans[0].1, 10.0);
-    }
-
-    #[test]
-    fn contact_that_opens_again_ends() {
-        let spans = contacts(&run("letting-go"));
-        assert_eq!(spans.len(), 1);
-        assert!(spans[0].0 == 0.0 && spans[0].1 < 8.0);
-        assert!(contacts(&run("free")).is_empty());
+    fn an_event_says_who_raised_it_when_and_when_it_was_cleared() {
+        let run = preset::find("bench").and_then(preset::Preset::scenario).map(|s| simulate(&s)).expect("preset");
+        let run = run.expect("run");
+        let said: Vec<String> = run.judged.events.iter().map(|event| told(event).join("; ")).collect();
+        let first = run.detection().expect("detected").time;
+        let alarm = format!("Centrode: alarm raised at {first:.3} s; ‖c_m − c_s‖ ");
+        assert!(
+            said.iter().any(|said| said.starts_with(&alarm) && said.contains(" mm exceeds ξ_2 7.00 mm; ")),
+            "{said:?}"
+        );
+        assert!(said.iter().any(|said| said.starts_with("Joint forces: ") && said.ends_with("not cleared by the end")));
     }
 }

@@ -4,8 +4,8 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::{Axis, rounded};
 use crate::app::charts::plots::frame::TEXT;
-use crate::app::charts::plots::marks::Judged;
 use centrode_core::scenario::Threshold;
+use centrode_core::study::course::Measure;
 use egui::{
     Align, Color32, CursorIcon, DragValue, FontId, Layout, Pos2, Rect, Sense, Shape, Stroke, StrokeKind, Ui, UiBuilder,
 };
@@ -19,14 +19,12 @@ const LABEL: f32 = 24.0;
 
 /// One threshold of one plot.
 pub struct Line {
-    /// Its symbol.
-    pub name: &'static str,
+    /// How it and its values are shown.
+    pub measure: Measure,
     /// What it is now, SI.
     pub threshold: Threshold,
     /// What it is when switched on again, SI.
     pub otherwise: f64,
-    /// How its values are shown.
-    pub judged: Judged,
     /// Colour of what it judges.
     pub color: Color32,
     /// Whether it judges; one that does not is dashed.
@@ -44,13 +42,13 @@ pub struct Outcome {
 
 impl View<'_> {
     /// Shows a threshold and takes what is done with it.
-    pub fn threshold(&mut self, ui: &mut Ui, values: &Axis, line: &Line) -> Outcome {
-        let data = self.frame.data;
+    pub fn threshold(&mut self, ui: &mut Ui, line: &Line) -> Outcome {
+        let (data, values) = (self.frame.data, self.frame.values);
         let on = line.threshold.value().is_some();
-        let scale = line.judged.scale;
+        let scale = line.measure.scale;
         let shown = line.threshold.value().unwrap_or(line.otherwise) * scale;
         let y = values.at(shown).max(data.top());
-        let id = ui.scope_id().with(line.name);
+        let id = ui.scope_id().with(line.measure.threshold);
 
         let reach = if ui.input(|input| input.any_touches()) { GRAB_TOUCH } else { GRAB };
         let zone = Rect::from_x_y_ranges(data.x_range(), y - reach..=y + reach).intersect(data.expand(2.0));
@@ -85,7 +83,7 @@ impl View<'_> {
         }
         let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));
-        self.label(ui, pos2(data.left() + 4.0, middle - half), values, line, &mut outcome);
+        self.label(ui, pos2(data.left() + 4.0, middle - half), &values, line, &mut outcome);
         outcome
     }
 
@@ -93,24 +91,24 @@ impl View<'_> {
     fn label(&mut self, ui: &mut Ui, at: Pos2, values: &Axis, line: &Line, outcome: &mut Outcome) {
         let theme = self.frame.theme;
         let on = line.threshold.value().is_some();
-        let scale = line.judged.scale;
+        let Measure { threshold, scale, unit, decimals, .. } = line.measure;
+        let name = threshold.replace('_', "");
         let mut shown = line.threshold.value().unwrap_or(line.otherwise) * scale;
         let ink = if on { theme.ink } else { theme.dim };
-        let symbol = ui.painter().layout_job(job(&line.name.replace('ξ', "ξ_"), TEXT, ink));
-        let unit = line.judged.unit;
-        let widest = format!("{} {unit}", number(shown.max(10.0), line.judged.decimals));
+        let symbol = ui.painter().layout_job(job(threshold, TEXT, ink));
+        let widest = format!("{} {unit}", number(shown.max(10.0), decimals));
         let widest = ui.painter().layout_job(job(&widest, TEXT, ink)).size().x;
         let rect = Rect::from_min_size(at, vec2(24.0 + symbol.size().x + widest + 16.0, LABEL));
         let edge = if on { line.color } else { theme.faint };
         ui.painter().rect(rect, 6.0, theme.panel, Stroke::new(1.0, edge), StrokeKind::Inside);
         // Nothing behind the label can be grabbed through it.
-        let id = ui.scope_id().with((line.name, "label"));
+        let id = ui.scope_id().with((threshold, "label"));
         ui.interact(rect, id, Sense::CLICK | Sense::DRAG);
 
         let switch = Rect::from_min_size(rect.min, vec2(24.0, rect.height()));
         let response = ui.interact(switch, id.with("switch"), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
-        let name = format!("{} on plot, on or off", line.name);
-        response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, ui.is_enabled(), on, &name));
+        let switch_name = format!("{name} on plot, on or off");
+        response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, ui.is_enabled(), on, &switch_name));
         if response.clicked() {
             let back = Threshold::On(line.threshold.value().unwrap_or(line.otherwise));
             outcome.changed = Some(if on { Threshold::OFF } else { back });
@@ -145,11 +143,11 @@ impl View<'_> {
         let value = DragValue::new(&mut shown)
             .range(0.0..=f64::MAX)
             .speed(0.5 * values.per_point())
-            .max_decimals(line.judged.decimals + 1)
-            .min_decimals(line.judged.decimals)
+            .max_decimals(decimals + 1)
+            .min_decimals(decimals)
             .update_while_editing(false)
             .suffix(format!(" {unit}"));
-        let response = inner.add(value).accessible_name(format!("{} on plot", line.name));
+        let response = inner.add(value).accessible_name(format!("{name} on plot"));
         outcome.moving |= response.dragged();
         if shown != before && shown.is_finite() {
             outcome.changed = Some(Threshold::On(shown / scale));

@@ -14,8 +14,8 @@ pub const CELL_CHOICES: &[Choice] =
 
 /// Why a preload matters to one bound and not to the other.
 pub const PRELOAD_NOTE: &str = "A preload pulls on all three backbones alike, and equal forces bend nothing: an error \
-    common to the cells cancels in it, so ε_c does not know the preload. Cells that err apart leave a part of it, so the \
-    bound for independent errors grows with it.";
+    common to the cells cancels, so ε_c does not depend on the preload. Errors that differ between the cells leave a part of it, so the \
+    bound for independent errors grows with the preload.";
 
 /// One part of a vector.
 const fn part(
@@ -38,7 +38,7 @@ pub const LOAD: &[Control] = &[
     part("load.moment[1]", "load.moment", 1, "Moment y", 1, Linear(1.0)),
     part("load.moment[2]", "load.moment", 2, "Moment z", 1, Linear(1.0)),
     row("load.start", "Load begins", 2, Linear(0.05)),
-    row("load.finish", "Load is whole", 2, Linear(0.05)),
+    row("load.finish", "Full load from", 2, Linear(0.05)),
 ];
 
 /// What ξ1 is.

@@ -1,13 +1,14 @@
 //! Two curves over all thresholds, each with its band: contacts found, and delay, against false alarms.
 
 use crate::app::charts::notation::{self, job, number};
-use crate::app::charts::paint::{self, Place};
+use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::command::Command;
 use crate::app::stages::tuner::LATE;
 use crate::app::stages::tuning::words::{digits, percent};
 use crate::app::stages::tuning::{Named, REACH, TEXT, View, taken};
+use crate::app::state::Tuning;
 use crate::app::theme::Theme;
-use centrode_core::chart::{Chart, Panel, Role, Style};
+use centrode_core::chart::{Chart, Panel, Role, Series, Style};
 use centrode_core::study::tuning::Point;
 use centrode_core::study::tuning::chart::{self, Curve, look};
 use centrode_core::study::tuning::recommend::Verdict;
@@ -16,41 +17,56 @@ use egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo};
 
 /// Where a threshold lies; none where its values are not defined.
 type At = fn(&Point) -> Option<[f64; 2]>;
+/// What a picture is made of: the study's version, and what is looked at in it.
+pub type Key = (u64, Tuning);
 
 /// Contacts found against false alarms: the operating characteristic.
-pub fn operating(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    show(ui, rect, chart::operating(&curves(view), view.tuning.wish), chart::found, view, out);
+pub fn operating(ui: &mut Ui, rect: Rect, view: &View<'_>, kept: &mut Option<Picture<Key>>, out: &mut Vec<Command>) {
+    let make = || chart::operating(&curves(view), view.tuning.wish);
+    show(ui, rect, make, chart::found, (view, kept), out);
 }
 
 /// Median delay against false alarms.
-pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, out: &mut Vec<Command>) {
-    show(ui, rect, chart::delays(&curves(view), view.tuning.wish, LATE), chart::delay, view, out);
+pub fn delay(ui: &mut Ui, rect: Rect, view: &View<'_>, kept: &mut Option<Picture<Key>>, out: &mut Vec<Command>) {
+    let make = || chart::delays(&curves(view), view.tuning.wish, LATE);
+    show(ui, rect, make, chart::delay, (view, kept), out);
 }
 
-/// All methods; the chosen one lies on top of the others, which stand back.
+/// All rules; the chosen one lies on top of the others, which stand back.
 fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
-    let chosen = view.tuning.method;
-    let others = Rule::ALL.into_iter().filter(|method| *method != chosen);
-    let curve = |method: Rule| {
-        let (role, dashed) = look(method);
-        let points = &view.derived.curves[method as usize];
-        Curve { name: chart::name(method).into(), role, dashed, faint: method != chosen, points }
+    let chosen = view.tuning.rule;
+    let others = Rule::ALL.iter().copied().filter(|rule| *rule != chosen);
+    let curve = |rule: Rule| {
+        let (role, dashed) = look(rule);
+        let points = &view.derived.curves[rule as usize];
+        Curve { name: chart::name(rule).into(), role, dashed, faint: rule != chosen, points }
     };
     others.chain([chosen]).map(curve).collect()
 }
 
-fn show(ui: &mut Ui, rect: Rect, mut panel: Panel, at: At, view: &View<'_>, out: &mut Vec<Command>) {
-    let chosen = view.tuning.method;
-    if let Verdict::Take { cell, level, .. } = &view.derived.verdict {
-        chart::mark(&mut panel, Role::Choice, Style::Rings, at(&view.study.point(*cell, chosen, *level)));
-    }
-    chart::mark(&mut panel, look(chosen).0, Style::Dots, view.own().and_then(at));
-    let title = panel.title.clone();
-    let chart = Chart { panels: vec![panel], ..Chart::default() };
-    let places = paint::chart(ui.painter(), &view.theme, rect, &chart, TEXT, &[]);
-    if let Some(place) = places.first() {
-        touch(ui, place, &title, at, view, out);
-    }
+fn show(
+    ui: &mut Ui,
+    rect: Rect,
+    make: impl Fn() -> Panel,
+    at: At,
+    (view, kept): (&View<'_>, &mut Option<Picture<Key>>),
+    out: &mut Vec<Command>,
+) {
+    let chosen = view.tuning.rule;
+    let key = (view.derived.version, view.tuning);
+    let make = || {
+        let mut panel = make();
+        if let Verdict::Take { cell, level, .. } = &view.derived.verdict {
+            chart::mark(&mut panel, Role::Choice, Style::Rings, at(&view.study.point(*cell, chosen, *level)));
+        }
+        Chart { panels: vec![panel], ..Chart::default() }
+    };
+    let picture = Picture::keep(kept, ui.ctx(), &view.theme, (key, false), make);
+    let places = picture.show(ui.painter(), &view.theme, rect, paint::page(TEXT));
+    let (Some(place), Some(panel)) = (places.first(), picture.chart().panels.first()) else { return };
+    let own = view.own().and_then(at).map(|own| Series::new("", look(chosen).0, Style::Dots, vec![own]));
+    picture.over(ui.painter(), &view.theme, (0, place), own.as_slice());
+    touch(ui, place, &panel.title, at, view, out);
 }
 
 /// A click or a drag takes the nearest threshold; without a button the pointer reads it.
@@ -80,7 +96,7 @@ fn touch(ui: &mut Ui, place: &Place, title: &str, at: At, view: &View<'_>, out: 
 
 /// A threshold and what it comes to.
 pub fn note(view: &View<'_>, point: &Point, theme: &Theme) -> Vec<egui::text::LayoutJob> {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let alarms = point.false_alarms.rate;
     let mut lines = vec![
         job(&format!("{} = {} {}", named.symbol, digits(&named, point.threshold), named.unit), 11.5, theme.ink),

@@ -1,68 +1,68 @@
 //! Filter length by threshold: how late contact is found, where false alarms are rare enough.
 
 use crate::app::charts::notation::{self, job};
-use crate::app::charts::paint::{self, Place};
+use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::command::Command;
 use crate::app::stages::tuner::LATE;
 use crate::app::stages::tuning::{Named, REACH, TEXT, View, curves, taken, words};
+use crate::app::state::Tuning;
 use centrode_core::chart::ticks::Tick;
-use centrode_core::chart::{Axis, Chart, Map, Panel, Role, Style};
+use centrode_core::chart::{Axis, Chart, Map, Panel, Role, Series, Style};
 use centrode_core::study::tuning::chart::mark;
 use centrode_core::study::tuning::recommend::Verdict;
-use egui::{CursorIcon, Pos2, Rect, Sense, TextureHandle, Ui, WidgetInfo};
+use egui::{CursorIcon, Pos2, Rect, Sense, Ui, WidgetInfo};
 
-/// The map and its image, kept while they stay the same.
-pub struct Picture {
-    key: (u64, u64, usize),
-    map: Map,
-    texture: TextureHandle,
-    /// The thresholds drawn, SI: evenly spaced rows from `step` up.
-    step: f64,
-}
+/// What the picture is made of: the study's version, what is looked at in it, and how many thresholds it shows.
+pub type Key = (u64, Tuning, usize);
 
 /// So many rows are shown, at least and at most: the evenly spaced thresholds.
 const ROWS: [usize; 2] = [20, 200];
 
 /// Shows the map; a click or a drag takes threshold and filter length.
-pub fn map(ui: &mut Ui, rect: Rect, view: &View<'_>, version: u64, kept: &mut Option<Picture>, out: &mut Vec<Command>) {
-    let method = view.tuning.method;
+pub fn map(
+    ui: &mut Ui,
+    rect: Rect,
+    view: &View<'_>,
+    version: u64,
+    kept: &mut Option<Picture<Key>>,
+    out: &mut Vec<Command>,
+) {
     let heading = "Median delay by filter length and threshold";
-    let key = (version, view.tuning.wish.to_bits(), method as usize);
-    if kept.as_ref().is_none_or(|picture| picture.key != key) {
-        let (map, step) = delays(view);
-        let texture = paint::texture(ui.ctx(), "filter lengths", &map, &view.theme, false);
-        *kept = Some(Picture { key, map, texture, step });
-    }
-    let Some(picture) = kept else { return };
-    let mut panel = panel(view, &picture.map);
-    panel.title = heading.into();
+    let step = step(view);
+    // Rows up to the threshold that is set, and some more: its dot moves over a map that stays.
+    let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
+    let least = (own + own / 8).next_multiple_of(ROWS[0]).clamp(ROWS[0], ROWS[1]);
     let at = |length: u64, threshold: f64| {
         let column = view.cells.lengths.iter().position(|(other, _)| *other == length)?;
         Some([column as f64, threshold])
     };
-    if let Verdict::Take { cell, point, .. } = &view.derived.verdict {
-        let length = view.study.cells()[*cell].scenario.filter.length;
-        mark(&mut panel, Role::Choice, Style::Rings, at(length, point.threshold));
-    }
+    let make = || {
+        let mut panel = Panel { title: heading.into(), ..panel(view, delays(view, step, least)) };
+        if let Verdict::Take { cell, point, .. } = &view.derived.verdict {
+            let length = view.study.cells()[*cell].scenario.filter.length;
+            mark(&mut panel, Role::Choice, Style::Rings, at(length, point.threshold));
+        }
+        Chart { panels: vec![panel], ..Chart::default() }
+    };
+    let picture = Picture::keep(kept, ui.ctx(), &view.theme, ((version, view.tuning, least), false), make);
+    let places = picture.show(ui.painter(), &view.theme, rect, paint::page(TEXT));
+    let map = picture.chart().panels.first().and_then(|panel| panel.map.as_ref());
+    let (Some(place), Some(map)) = (places.first(), map) else { return };
     let own = view.setting().and_then(|threshold| at(view.study.cells()[0].scenario.filter.length, threshold));
-    mark(&mut panel, Role::Detection, Style::Dots, own);
-    let chart = Chart { panels: vec![panel], ..Chart::default() };
-    let maps = std::slice::from_ref(&picture.texture);
-    let places = paint::chart(ui.painter(), &view.theme, rect, &chart, TEXT, maps);
-    if let Some(place) = places.first() {
-        touch(ui, place, heading, view, picture, own, out);
-    }
+    let dot = own.map(|own| Series::new("", Role::Detection, Style::Dots, vec![own]));
+    picture.over(ui.painter(), &view.theme, (0, place), dot.as_slice());
+    touch(ui, place, heading, view, (map.rows(), step), own, out);
 }
 
 /// The axes of the map: a column for each filter length, a row for each threshold.
-fn panel(view: &View<'_>, map: &Map) -> Panel {
-    let named = Named::of(view.tuning.method, view.study);
+fn panel(view: &View<'_>, map: Map) -> Panel {
+    let named = Named::of(view.tuning.rule, view.study);
     let tick = |(k, (length, _)): (usize, &(u64, usize))| Tick { value: k as f64, text: length.to_string() };
     let ticks = view.cells.lengths.iter().enumerate().map(tick).collect();
     let x = Axis { range: Some(map.x), ticks, ..Axis::new("Filter length N", "1", "1", 1.0) };
     let y = Axis { range: Some(map.y), ..Axis::new(named.symbol, "1", named.unit, named.scale) };
     let note = format!("faded: more than {} % may alarm", words::wished(view.tuning.wish));
-    Panel { note, map: Some(map.clone()), ..Panel::new(x, y) }
+    Panel { note, map: Some(map), ..Panel::new(x, y) }
 }
 
 /// A click or a drag takes the threshold and the filter length under it; without a button the pointer reads them.
@@ -71,11 +71,11 @@ fn touch(
     place: &Place,
     heading: &str,
     view: &View<'_>,
-    picture: &Picture,
+    (rows, step): (usize, f64),
     own: Option<[f64; 2]>,
     out: &mut Vec<Command>,
 ) {
-    let (method, lengths) = (view.tuning.method, &view.cells.lengths);
+    let (rule, lengths) = (view.tuning.rule, &view.cells.lengths);
     let response = ui.interact(place.data(), ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, heading));
@@ -83,18 +83,18 @@ fn touch(
         let [column, wanted] = place.value(at);
         let &(length, cell) = lengths.get((column.round().max(0.0) as usize).min(lengths.len().checked_sub(1)?))?;
         // Levels that are drawn: the evenly spaced ones.
-        let row = ((wanted / picture.step).round() as usize).clamp(1, picture.map.rows().max(1));
-        Some((length, cell, nearest(view.study.levels(cell, method), row as f64 * picture.step)))
+        let row = ((wanted / step).round() as usize).clamp(1, rows.max(1));
+        Some((length, cell, nearest(view.study.levels(cell, rule), row as f64 * step)))
     };
     let near = |finger: Pos2| own.is_some_and(|own| place.at(own).distance(finger) < REACH);
     if let Some(at) = taken(ui, &response, near) {
         if let Some((length, cell, level)) = under(at) {
-            view.take_threshold(view.study.levels(cell, method)[level], Some(length), out);
+            view.take_threshold(view.study.levels(cell, rule)[level], Some(length), out);
         }
     } else if let Some(at) = response.hover_pos().filter(|_| !response.dragged())
         && let Some((length, cell, level)) = under(at)
     {
-        let mut lines = curves::note(view, &view.study.point(cell, method, level), &view.theme);
+        let mut lines = curves::note(view, &view.study.point(cell, rule, level), &view.theme);
         lines.insert(1, job(&format!("N = {length}"), 11.5, view.theme.ink));
         notation::note(ui.painter(), &view.theme, at, place.data(), lines);
     }
@@ -112,26 +112,28 @@ fn nearest(levels: &[f64], threshold: f64) -> usize {
 
 /// The median delay, s, and whether false alarms are as rare as wished.
 fn delay(view: &View<'_>, cell: usize, threshold: f64) -> Option<(f64, bool)> {
-    let (study, method) = (view.study, view.tuning.method);
-    let point = study.point(cell, method, nearest(study.levels(cell, method), threshold));
+    let (study, rule) = (view.study, view.tuning.rule);
+    let point = study.point(cell, rule, nearest(study.levels(cell, rule), threshold));
     let quiet = point.false_alarms.rate.high <= view.tuning.wish;
     let delay = point.detection.map(|seen| seen.median).filter(|delay| !delay.is_nan());
     delay.filter(|_| point.false_alarms.rate.of > 0).map(|delay| (delay, quiet))
 }
 
-/// The map, and the step between its thresholds, SI.
-fn delays(view: &View<'_>) -> (Map, f64) {
+/// The step between the thresholds drawn, SI: they are even, but for the coarse ones and the scenario's own.
+fn step(view: &View<'_>) -> f64 {
+    let levels = view.study.levels(0, view.tuning.rule);
+    levels.windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(0.0, f64::max)
+}
+
+/// The map, of at least so many thresholds.
+fn delays(view: &View<'_>, step: f64, least: usize) -> Map {
     let cells = &view.cells.lengths;
-    // The steps are even, but for the coarse ones and the scenario's own.
-    let levels = view.study.levels(0, view.tuning.method);
-    let step = levels.windows(2).map(|pair| pair[1] - pair[0]).take(4).fold(0.0, f64::max);
     let known = |row: usize| cells.iter().map(move |(_, cell)| delay(view, *cell, row as f64 * step));
     let rows: Vec<Vec<Option<(f64, bool)>>> = (1..=ROWS[1]).map(|row| known(row).collect()).collect();
     let last = rows.iter().rposition(|row| row.iter().any(Option::is_some)).unwrap_or(0);
-    let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
-    let count = (last + last / 8).max(own + own / 8).clamp(ROWS[0], ROWS[1]);
+    let count = (last + last / 8).max(least).clamp(ROWS[0], ROWS[1]);
     let shown = || rows[..count].iter().flatten();
-    let map = Map {
+    Map {
         unit: "s",
         scale: 1.0,
         columns: cells.len(),
@@ -144,6 +146,5 @@ fn delays(view: &View<'_>) -> (Map, f64) {
         ends: [LATE, 0.0],
         level: None,
         line: Vec::new(),
-    };
-    (map, step)
+    }
 }

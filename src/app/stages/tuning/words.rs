@@ -1,10 +1,10 @@
 //! What the study says, in sentences.
 
 use crate::app::charts::notation::number;
-use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuner::{LATE, Tuner};
 use crate::app::stages::tuning::{Named, View};
-use centrode_core::scenario::Place;
-use centrode_core::study::tuning::rate::Rate;
+use centrode_core::scenario::{Place, Thresholds};
+use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::recommend::Verdict;
 use centrode_core::study::tuning::tally::Found;
 use centrode_core::study::tuning::watch::Rule;
@@ -21,7 +21,7 @@ pub fn wished(share: f64) -> String {
 }
 
 /// `1.0 to 8.5 %`.
-pub fn interval(rate: &Rate) -> String {
+pub fn interval(rate: &Share) -> String {
     format!("{} to {} %", percent(rate.low), percent(rate.high))
 }
 
@@ -35,7 +35,7 @@ fn place(view: &View<'_>) -> String {
 
 /// What the thresholds that are set achieve.
 pub fn now(view: &View<'_>) -> String {
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let (Some(point), Some(threshold)) = (view.own(), view.setting()) else {
         return format!("{} is off, so nothing is detected.", named.symbol);
     };
@@ -49,25 +49,25 @@ pub fn now(view: &View<'_>) -> String {
         return "Making the first runs …".into();
     }
     let mut text = format!(
-        "Now, {setting}, N = {}: {} of {} runs without contact gave a false alarm ({}).",
+        "Now, {setting}{}, N = {}: {} of {} runs without contact gave a false alarm ({}).",
+        view.derived.beside.set,
         view.study.cells()[0].scenario.filter.length,
         if alarms.count == 0 { "none".into() } else { alarms.count.to_string() },
         alarms.of,
         interval(alarms),
     );
-    match (point.detection, view.study.contact_time(0)) {
-        (Some(seen), Some(_)) => text += &found(&seen, &place(view)),
-        (Some(_), None) => text += " The robot never reaches the beam.",
-        (None, _) => text += " There is no contact to detect.",
+    match point.detection {
+        // The first run says whether the robot reaches the beam.
+        Some(seen) if seen.early.of == 0 => {}
+        Some(_) if view.study.contact_time(0).is_none() => text += " The robot never reaches the beam.",
+        Some(seen) => text += &found(&seen, &place(view)),
+        None => text += " There is no contact to detect.",
     }
     text
 }
 
 fn found(seen: &Found, place: &str) -> String {
-    let Rate { count, of, .. } = seen.detected;
-    if seen.early.of == 0 {
-        return String::new();
-    }
+    let Share { count, of, .. } = seen.detected;
     if of == 0 {
         return " Every run gave an alarm before the contact.".into();
     }
@@ -96,6 +96,38 @@ fn found(seen: &Found, place: &str) -> String {
     text
 }
 
+/// The thresholds that a rule holds beside its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Beside {
+    /// As they are set, and with which it was counted where that was another; empty for a rule of one detector.
+    pub set: String,
+    /// With which it was counted, as a sentence; empty where they are set like that.
+    pub counted: String,
+}
+
+/// What a rule holds beside its own threshold. While one of these is on its way, the counts are those of the one before.
+pub fn beside(tuner: &Tuner, rule: Rule) -> Beside {
+    let (mut set, mut was) = (String::new(), String::new());
+    for &detector in rule.fixed() {
+        let (Some(counted), now) = (tuner.counted_with(rule), tuner.thresholds()) else { continue };
+        let alone = Rule::ALL.iter().find(|rule| rule.fixed().is_empty() && rule.swept() == detector);
+        let told = |thresholds: &Thresholds| {
+            let named = Named::by(alone.copied().unwrap_or(rule), thresholds.xi1_rule);
+            match detector.setting(thresholds) {
+                Some(threshold) => setting(&named, threshold),
+                None => format!("{} off", named.symbol),
+            }
+        };
+        let (now, counted) = (told(now), told(counted));
+        set += &format!(", {now}");
+        if now != counted {
+            set += &format!(" (counted with {counted})");
+            was += &format!(" This is counted with {counted}.");
+        }
+    }
+    Beside { set, counted: was }
+}
+
 fn setting(named: &Named, threshold: f64) -> String {
     format!("{} = {} {}", named.symbol, digits(named, threshold), named.unit).trim_end().to_owned()
 }
@@ -113,12 +145,12 @@ pub fn digits(named: &Named, threshold: f64) -> String {
 /// What to take, and its level and filter length; or why nothing.
 pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
     let wish = wished(view.tuning.wish);
-    let named = Named::of(view.tuning.method, view.study);
+    let named = Named::of(view.tuning.rule, view.study);
     let text = match &view.derived.verdict {
         Verdict::Take { cell, level, point } => {
             let length = view.study.cells()[*cell].scenario.filter.length;
             let delay = point.detection.map_or(f64::NAN, |seen| seen.median);
-            let filter = if view.tuning.method == Rule::Jfd { String::new() } else { format!(", N = {length}") };
+            let filter = if view.tuning.rule == Rule::Jfd { String::new() } else { format!(", N = {length}") };
             let text = format!(
                 "Soonest with at most {wish} % false alarms: {}{filter} detects it after {} s, and {} of {} runs without contact gave a false alarm ({}).",
                 setting(&named, point.threshold),
@@ -139,7 +171,7 @@ pub fn advice(view: &View<'_>) -> (String, Option<(usize, u64)>) {
             "No threshold with at most {wish} % false alarms detects half of the contacts in time; the best detects {} %.",
             percent(*best)
         ),
-        Verdict::NoContact => "Set a contact to be advised.".into(),
+        Verdict::NoContact => "Set a contact to get a recommendation.".into(),
     };
     (text, None)
 }

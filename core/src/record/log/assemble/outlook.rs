@@ -37,5 +37,5 @@ pub fn outlooks(log: &Log, source: Commands) -> Vec<Outlook> {
         };
         Outlook { detector, works, why: why.into() }
     };
-    Method::ALL.map(of).into()
+    Method::ALL.iter().copied().map(of).collect()
 }

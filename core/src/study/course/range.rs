@@ -1,5 +1,7 @@
 //! How high a plot reaches: the interesting part fills it, and the rest is said to be off the scale.
 
+use libm::{floor, log10, pow, round};
+
 /// The plot reaches at least this many times its threshold, so that the line can be dragged upward.
 const HEADROOM: f64 = 1.6;
 /// Share of the values that should lie inside.
@@ -33,14 +35,14 @@ pub fn top(threshold: f64, values: &mut Vec<f64>) -> f64 {
 #[must_use]
 pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
-    let k = (last as f64 * share).round() as usize;
+    let k = round(last as f64 * share) as usize;
     Some(*values.select_nth_unstable_by(k.min(last), f64::total_cmp).1)
 }
 
 /// The next round number: coarse enough that a small change of a setting seldom changes it.
 #[must_use]
 pub fn round_up(value: f64) -> f64 {
-    let power = 10f64.powf(value.log10().floor());
+    let power = pow(10.0, floor(log10(value)));
     let round = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
     round.map(|m| m * power).into_iter().find(|&r| r >= value * (1.0 - 1e-9)).unwrap_or(10.0 * power)
 }

@@ -1,0 +1,277 @@
+//! A run over time as panels: what each detector judges, with what it is compared with, and the tangent angle.
+
+pub mod range;
+
+use crate::chart::ticks::Steps;
+use crate::chart::{Axis, Panel, Role, Series, Span, Style, Vertical};
+use crate::detect::{Event, Method, Standing};
+use crate::run::{Run, Sample};
+use crate::scenario::{Thresholds, Xi1Rule};
+
+/// Room beyond the angles of the motion, as a share of their difference, and the least difference that counts, rad.
+const MARGIN: f64 = 0.08;
+const LEAST: f64 = 0.174_532_925_199_432_95;
+
+/// How the values of a detector are called and shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// The detector.
+    pub detector: &'static str,
+    /// The symbol of its value.
+    pub symbol: &'static str,
+    /// Its value in words.
+    pub name: &'static str,
+    /// The symbol of its threshold.
+    pub threshold: &'static str,
+    /// Values are multiplied by this to be shown.
+    pub scale: f64,
+    /// Unit of the numbers.
+    pub si_unit: &'static str,
+    /// Unit shown.
+    pub unit: &'static str,
+    /// Decimals shown.
+    pub decimals: usize,
+    /// What its value means.
+    pub role: Role,
+}
+
+/// How the values of a detector are called and shown.
+#[must_use]
+pub fn measure(method: Method) -> Measure {
+    match method {
+        Method::Fcd => Measure {
+            detector: "Centrode",
+            symbol: "‖c_m − c_s‖",
+            name: "Centrode deviation",
+            threshold: "ξ_2",
+            scale: 1e3,
+            si_unit: "m",
+            unit: "mm",
+            decimals: 2,
+            role: Role::Sensor,
+        },
+        Method::Jfd => Measure {
+            detector: "Joint forces",
+            symbol: "Θ",
+            name: "Joint force deviation",
+            threshold: "ξ_1",
+            scale: 1e3,
+            si_unit: "N·m",
+            unit: "mN·m",
+            decimals: 1,
+            role: Role::Force,
+        },
+    }
+}
+
+/// A curve over time.
+#[derive(Debug, Clone, Copy)]
+pub struct Curve {
+    /// Its name.
+    pub name: &'static str,
+    /// What it means.
+    pub role: Role,
+    /// How it is drawn.
+    pub style: Style,
+    /// Its value, SI; NaN where it is not defined.
+    pub value: fn(&Sample, &Thresholds) -> f64,
+}
+
+/// What a detector judges, and behind it what that is compared with.
+#[must_use]
+pub fn curves(method: Method, thresholds: &Thresholds) -> Vec<Curve> {
+    let Measure { symbol, role, .. } = measure(method);
+    let judged = |value| Curve { name: symbol, role, style: Style::Line, value };
+    match method {
+        Method::Fcd => vec![judged(|sample, _| sample.judgement.deviation)],
+        Method::Jfd => {
+            let follows = thresholds.xi1_rule == Xi1Rule::Bound && thresholds.xi1.value().is_some();
+            let style = if follows { Style::Thin } else { Style::Dashed };
+            vec![
+                judged(|sample, _| sample.judgement.residual),
+                Curve {
+                    name: "k·ε_c",
+                    role,
+                    style,
+                    value: |sample, thresholds| thresholds.xi1_factor * sample.judgement.shape_bound,
+                },
+                Curve {
+                    name: "ε_c",
+                    role: Role::Aside,
+                    style: Style::Thin,
+                    value: |sample, _| sample.judgement.common_bound,
+                },
+                Curve {
+                    name: "ε_c indep.",
+                    role: Role::Aside,
+                    style: Style::Dashed,
+                    value: |sample, _| sample.judgement.independent_bound,
+                },
+            ]
+        }
+    }
+}
+
+/// How high the plot of a detector reaches, SI, where its line is to be seen at a `threshold` (SI): see [`range::top`].
+#[must_use]
+pub fn top(run: &Run, method: Method, threshold: f64) -> f64 {
+    let (thresholds, scale) = (&run.judged.settings.thresholds, measure(method).scale);
+    let counted = |sample: Sample| method.statistic(&sample.judgement, sample.time, thresholds).counted();
+    let mut values: Vec<f64> = run.samples().filter_map(counted).map(|value| value * scale).collect();
+    range::top(threshold * scale, &mut values) / scale
+}
+
+/// What a detector judges over time, up to `top` (SI): behind it what that is compared with; where it is not judged it stands
+/// back. The threshold and the [`events`] are not drawn.
+#[must_use]
+pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
+    let thresholds = &run.judged.settings.thresholds;
+    let Measure { symbol, name, scale, si_unit, unit, role, .. } = measure(method);
+    let y = Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) };
+    let mut panel = Panel { title: name.into(), off_scale: true, ..over_time(run, y) };
+    let armed = thresholds.armed_from.clamp(0.0, end(run));
+    panel.spans.push(Span { name: "not armed", role: Role::Aside, low: false, ends: [0.0, armed] });
+    panel.spans.extend(held(run, true));
+    let mut all = curves(method, thresholds).into_iter();
+    let judged = all.next();
+    for Curve { name, role, style, value } in all {
+        let points = run.samples().map(|sample| [sample.time, value(&sample, thresholds)]).collect();
+        panel.series.push(Series::new(name, role, style, points));
+    }
+    for (faint, counts) in [(true, false), (false, true)] {
+        let Some(Curve { name, value, .. }) = judged else { continue };
+        let point = |sample: Sample| {
+            let value = value(&sample, thresholds);
+            let standing = method.standing(value, sample.judgement.speed, sample.time, thresholds);
+            [sample.time, if (standing != Standing::Silent) == counts { value } else { f64::NAN }]
+        };
+        let name = if faint { "" } else { name };
+        let points = run.samples().map(point).collect();
+        panel.series.push(Series { faint, ..Series::new(name, role, Style::Line, points) });
+    }
+    panel
+}
+
+/// θL over time, with the contact shaded.
+#[must_use]
+pub fn angle(run: &Run) -> Panel {
+    let motion = &run.plan.scenario().motion;
+    let (a, b) = (motion.theta_start, motion.theta_end);
+    let margin = MARGIN * (a - b).abs().max(LEAST);
+    let range = Some([a.min(b) - margin, a.max(b) + margin]);
+    let y = Axis { range, steps: Steps::Degrees, ..Axis::new("θ_L", "rad", "°", 180.0 / std::f64::consts::PI) };
+    let mut panel = Panel { title: "Tangent angle".into(), ..over_time(run, y) };
+    panel.spans.extend(held(run, false));
+    panel.spans.extend(held(run, true).map(|span| Span { name: "", ..span }));
+    let points = run.samples().map(|sample| [sample.time, sample.theta_l]).collect();
+    panel.series.push(Series::new("θ_L", Role::Robot, Style::Line, points));
+    panel
+}
+
+/// The events of a detector at its threshold: a diamond where one is raised, a circle where it is cleared. The one that the
+/// detection is made of has its colour.
+#[must_use]
+pub fn events(run: &Run, method: Method) -> Vec<Series> {
+    let own = || run.judged.events.iter().filter(|event| event.detector == method);
+    let role = |event: &Event| if is_detection(run, event) { Role::Detection } else { measure(method).role };
+    let cleared = own().filter_map(|event| Some([event.cleared?, event.threshold])).collect();
+    let mut all = vec![Series::new("cleared", measure(method).role, Style::Circles, cleared)];
+    let raised = own().map(|event| (role(event), [event.raised, event.threshold]));
+    all.extend(raised.map(|(role, at)| Series::new("raised", role, Style::Diamonds, vec![at])));
+    all
+}
+
+/// Whether an event is the one that the detection of a run is made of.
+#[must_use]
+pub fn is_detection(run: &Run, event: &Event) -> bool {
+    event.detection.is_some() && event.detection == run.detection()
+}
+
+/// A panel over the time of a run, with its detection.
+fn over_time(run: &Run, y: Axis) -> Panel {
+    let x = Axis { range: Some([0.0, end(run)]), ..Axis::new("Time", "s", "s", 1.0) };
+    let detection = run.detection().map(|found| Vertical { name: "detection", x: found.time, role: Role::Detection });
+    Panel { verticals: detection.into_iter().collect(), ..Panel::new(x, y) }
+}
+
+/// Time of the last sample, s.
+#[must_use]
+pub fn end(run: &Run) -> f64 {
+    run.sample(run.len() - 1).time
+}
+
+fn held(run: &Run, low: bool) -> impl Iterator<Item = Span> {
+    contacts(run).into_iter().map(move |ends| Span { name: "contact", role: Role::Contact, low, ends })
+}
+
+/// Truth: times during which a contact holds the backbone, s.
+#[must_use]
+pub fn contacts(run: &Run) -> Vec<[f64; 2]> {
+    let mut spans: Vec<[f64; 2]> = Vec::new();
+    let mut held = false;
+    for sample in run.samples() {
+        match spans.last_mut() {
+            Some(span) if sample.in_contact && held => span[1] = sample.time,
+            _ if sample.in_contact => spans.push([sample.time; 2]),
+            _ => {}
+        }
+        held = sample.in_contact;
+    }
+    spans
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::simulate;
+    use crate::scenario::preset::find;
+
+    fn run(name: &str) -> Run {
+        simulate(&find(name).and_then(|preset| preset.scenario()).expect("preset")).expect("run")
+    }
+
+    #[test]
+    fn contact_is_one_span_that_starts_at_the_truth() {
+        let run = run("paper");
+        let spans = contacts(&run);
+        assert_eq!(spans, [[run.contact_time().expect("contact"), 10.0]]);
+    }
+
+    #[test]
+    fn contact_that_opens_again_ends() {
+        let spans = contacts(&run("letting-go"));
+        assert_eq!(spans.len(), 1);
+        assert!(spans[0][0] == 0.0 && spans[0][1] < 8.0);
+        assert!(contacts(&run("free")).is_empty());
+    }
+
+    #[test]
+    fn every_value_is_drawn_once_and_what_is_not_judged_stands_back() {
+        let run = run("bench");
+        for &method in Method::ALL {
+            let panel = statistic(&run, method, 0.1);
+            let [.., still, judged] = &panel.series[..] else { panic!("{method:?}") };
+            assert!(still.faint && !judged.faint);
+            let value = curves(method, &run.judged.settings.thresholds)[0].value;
+            for (k, sample) in run.samples().enumerate() {
+                let (value, a, b) = (value(&sample, &Thresholds::default()), still.points[k][1], judged.points[k][1]);
+                assert!(value.is_nan() || (a == value) != (b == value), "{method:?} at {} s", sample.time);
+            }
+        }
+    }
+
+    #[test]
+    fn marks_are_events_and_not_crossings() {
+        let run = run("bench");
+        let (events, crossings) = (&run.judged.events, run.crossings());
+        assert!(crossings.len() > events.len(), "noise crosses a threshold more often than it raises an alarm");
+        for &method in Method::ALL {
+            let marks = super::events(&run, method);
+            let own = events.iter().filter(|event| event.detector == method);
+            assert_eq!(marks.len() - 1, own.clone().count());
+            assert_eq!(marks[0].points.len(), own.clone().filter(|event| event.cleared.is_some()).count());
+            let colours = marks[1..].iter().filter(|series| series.role == Role::Detection).count();
+            assert_eq!(colours, usize::from(method == Method::Fcd), "{method:?}");
+        }
+    }
+}
