@@ -111,5 +111,29 @@ fn tuning(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, experiment, update, study, tuning);
+/// A log of a million rows of thirteen columns: read, then put on the loop's clock.
+fn log(c: &mut Criterion) {
+    use centrode_core::record::Recorder;
+    use centrode_core::record::log::{Log, Options, Setup, assemble, write};
+    let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("bench");
+    (scenario.motion.finish, scenario.motion.end) = (900.0, 999.999);
+    let plan = Plan::new(&scenario).expect("valid");
+    let mut text = write::csv_header();
+    Recorder::new(&plan).for_each(|(entry, _)| write::csv_row(&mut text, &entry));
+    let bytes = text.into_bytes();
+    let mut group = c.benchmark_group("log");
+    group.sample_size(10);
+    let read = || Log::read("log.csv", black_box(bytes.clone()), &Options::default()).expect("a log");
+    group.bench_function("read 1e6 rows of CSV", |b| b.iter(|| read().readings.len()));
+    let log = read();
+    assert_eq!(log.readings.len(), 1_000_000);
+    group.bench_function("assemble 1e6 rows", |b| {
+        b.iter(|| {
+            assemble(black_box(&log), &scenario, &Setup::default()).expect("a recording").recording.entries.len()
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, model, experiment, update, study, tuning, log);
 criterion_main!(benches);

@@ -5,13 +5,16 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
 
+mod analyze;
 mod draw;
 mod figure;
 mod interrupt;
 mod link;
+mod logfile;
 mod map;
 mod model;
 mod output;
+mod report;
 mod run;
 mod study;
 mod table2;
@@ -44,6 +47,8 @@ enum Command {
     Figure(figure::FigureArgs),
     /// Simulate a scenario and report threshold crossings and the estimated contact location.
     Run(run::RunArgs),
+    /// Judge a log of a rig: the same detectors on recorded data.
+    Analyze(analyze::AnalyzeArgs),
     /// Repeat the experiment on disks 1, 2 and 3 and set it beside the paper's Table II.
     Table2(table2::Table2Args),
     /// Map which contacts are detectable: the largest threshold and cell error for each place and bend at contact.
@@ -148,7 +153,7 @@ pub fn main() -> ExitCode {
         }
         Err(error) if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
             return Failure::Input(
-                "name a subcommand: model, run, figure, table2, map, study, link, presets or scenario (see --help)"
+                "name a subcommand: model, run, figure, table2, map, study, analyze, link, presets or scenario (see --help)"
                     .into(),
             )
             .report();
@@ -160,6 +165,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Model(args) => args.execute(&mut out),
         Command::Run(args) => args.execute(&mut out),
+        Command::Analyze(args) => args.execute(&mut out),
         Command::Figure(args) => args.execute(&mut out),
         Command::Table2(args) => args.execute(&mut out),
         Command::Map(args) => args.execute(&mut out),

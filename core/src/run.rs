@@ -1,5 +1,9 @@
 //! A simulated experiment and what is concluded from it: at once, or sample by sample.
 
+mod replay;
+
+pub use replay::Replay;
+
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
 use crate::detect::filter::FilteredMotion;
@@ -115,6 +119,8 @@ pub struct Simulation<'a> {
     observer: Observer,
     alarms: Alarms,
     contact_time: Option<f64>,
+    /// What was stored last.
+    entry: Option<Entry>,
 }
 
 impl<'a> Simulation<'a> {
@@ -127,7 +133,14 @@ impl<'a> Simulation<'a> {
             observer: Observer::new(&settings),
             alarms: Alarms::new(&settings),
             contact_time: None,
+            entry: None,
         }
+    }
+
+    /// What the loop stored at the last sample; none before the first.
+    #[must_use]
+    pub fn entry(&self) -> Option<&Entry> {
+        self.entry.as_ref()
     }
 
     /// Threshold crossings so far, in order.
@@ -170,6 +183,7 @@ impl Iterator for Simulation<'_> {
         if truth.held.is_some() && self.contact_time.is_none() {
             self.contact_time = Some(entry.time);
         }
+        self.entry = Some(entry);
         Some(Sample::new(&entry, Some(&truth), &evidence))
     }
 
@@ -232,6 +246,9 @@ impl Run {
         if plan == self.plan {
             return Anew::Nothing;
         }
+        if self.is_recorded() {
+            return self.judge_again(plan);
+        }
         if !same_recording(plan.scenario(), self.plan.scenario()) {
             *self = Self::new(plan);
             return Anew::Recording;
@@ -240,12 +257,17 @@ impl Run {
         if anew == Anew::Evidence {
             self.judged = judge(&self.recording, &settings);
         } else {
-            let empty = Judged { settings, evidence: Vec::new(), crossings: Vec::new(), events: Vec::new() };
-            let thresholds = empty.settings.thresholds.clone();
-            self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds);
+            self.alarm_again(settings);
         }
         self.plan = plan;
         anew
+    }
+
+    /// Holds the evidence against other thresholds.
+    fn alarm_again(&mut self, settings: Settings) {
+        let empty = Judged { settings, evidence: Vec::new(), crossings: Vec::new(), events: Vec::new() };
+        let thresholds = empty.settings.thresholds.clone();
+        self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds);
     }
 
     /// Samples of the run, at least 1.
@@ -278,6 +300,11 @@ impl Run {
     /// Place of the last sample not after `time` (s); the first for times before the run.
     #[must_use]
     pub fn place(&self, time: f64) -> usize {
+        if self.is_recorded() {
+            // The entries of a log need not begin at 0, nor be evenly spaced to the last bit.
+            let after = self.recording.entries.partition_point(|entry| entry.time <= time);
+            return after.saturating_sub(1);
+        }
         let k = (time * self.judged.settings.loop_rate * (1.0 + 4.0 * f64::EPSILON)) as usize;
         k.min(self.len() - 1)
     }

@@ -9,6 +9,7 @@ pub mod map;
 pub mod seed;
 pub mod shared;
 pub mod table2;
+pub mod timeline;
 pub mod tuning;
 
 /// Work in pieces of a few milliseconds.

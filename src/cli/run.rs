@@ -1,16 +1,16 @@
 //! `centrode run`: simulate one scenario, sample by sample.
 //!
 //! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
-//! at most [`MAX_CROSSINGS`] of them.
+//! at most [`MAX_CROSSINGS`](super::report::MAX_CROSSINGS) of them.
 
 use super::ScenarioArgs;
-use super::output::{Failure, NewFile, finish_csv, json, write_record};
+use super::logfile::LogFile;
+use super::output::{Failure, NewFile, finish_csv, write_record};
+use super::report::{Contact, Report, Tally};
 use centrode_core::chart::csv::cell;
-use centrode_core::detect::{Crossing, Detection, Event, Method};
-use centrode_core::run::{CHANNELS, Sample, Simulation};
-use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::run::{CHANNELS, Simulation};
+use centrode_core::scenario::Plan;
 use clap::Args;
-use serde::Serialize;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -25,58 +25,9 @@ pub struct RunArgs {
     /// Write every channel at loop rate to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-}
-
-/// What a run comes to.
-#[derive(Debug, Serialize)]
-struct Report {
-    scenario: Scenario,
-    samples: usize,
-    /// Truth; null when the beam never holds.
-    contact: Option<Contact>,
-    crossings: Vec<Crossing>,
-    /// What each detector makes of its crossings.
-    events: Vec<Event>,
-    /// Crossings that are not listed.
-    #[serde(skip)]
-    more: u64,
-    /// The first crossing of ξ2; null when there is none.
-    detection: Option<Found>,
-    /// Largest values judged: after arming, and for the centrode while the end disk turns.
-    peak: Peaks,
-}
-
-#[derive(Debug, Serialize)]
-struct Contact {
-    time: f64,
-    arc_length: f64,
-    bend: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Found {
-    #[serde(flatten)]
-    detection: Detection,
-    /// Time since the contact began, s; null without contact.
-    delay: Option<f64>,
-}
-
-#[derive(Debug, Default, Serialize)]
-struct Peaks {
-    deviation: Option<Peak>,
-    residual: Option<Peak>,
-}
-
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Peak {
-    time: f64,
-    value: f64,
-}
-
-fn raise(peak: &mut Option<Peak>, time: f64, value: f64) {
-    if !value.is_nan() && peak.is_none_or(|peak| value > peak.value) {
-        *peak = Some(Peak { time, value });
-    }
+    /// Write what a rig would have recorded, without the truth, to a log; the extension says how.
+    #[arg(long, value_name = "FILE.{csv,tum,mcap}")]
+    log: Option<PathBuf>,
 }
 
 impl RunArgs {
@@ -89,25 +40,13 @@ impl RunArgs {
             let header = CHANNELS.iter().map(|channel| format!("{} [{}]", channel.name, channel.unit));
             write_record(csv, header)?;
         }
+        let mut log = self.log.as_deref().map(|path| LogFile::create(path, &plan)).transpose()?;
         let mut simulation = Simulation::new(&plan);
-        let mut crossings = Crossings::new(if self.json { MAX_CROSSINGS } else { 0 });
-        let mut peak = Peaks::default();
-        let detection = &scenario.detection;
+        let mut tally = Tally::new(self.json);
         while let Some(sample) = simulation.next() {
-            crossings.add(&simulation.take_crossings());
-            if self.json && crossings.more > 0 {
-                let line = format!(
-                    "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {} s there are more: raise \
-                     detection.xi2 or detection.xi1, or leave --json away",
-                    sample.time
-                );
-                return Err(Failure::Input(line));
-            }
-            let Sample { time, judgement, .. } = &sample;
-            for (method, peak) in [(Method::Fcd, &mut peak.deviation), (Method::Jfd, &mut peak.residual)] {
-                if let Some(value) = method.statistic(judgement, *time, detection).counted() {
-                    raise(peak, *time, value);
-                }
+            tally.add(&sample, &simulation.take_crossings(), &scenario.detection)?;
+            if let Some(log) = &mut log {
+                log.write(simulation.entry())?;
             }
             if let Some(csv) = &mut csv {
                 write_record(csv, CHANNELS.iter().map(|channel| cell((channel.value)(&sample))))?;
@@ -116,119 +55,15 @@ impl RunArgs {
         if let Some(csv) = csv {
             finish_csv(csv)?;
         }
+        if let Some(log) = log {
+            log.finish()?;
+        }
         let contact_time = simulation.contact_time();
         let contact = plan.contact().zip(contact_time).map(|(contact, time)| Contact {
             time,
             arc_length: contact.arc_length,
             bend: contact.bend,
         });
-        let found = simulation
-            .detection()
-            .map(|detection| Found { delay: contact_time.map(|time| detection.time - time), detection });
-        let Crossings { listed, more, .. } = crossings;
-        let samples = plan.samples();
-        let events = simulation.events().to_vec();
-        let report = Report { samples, contact, crossings: listed, events, more, detection: found, peak, scenario };
-        if self.json { json(out, &report) } else { Ok(table(out, &report)?) }
-    }
-}
-
-/// At most this many events are listed in the table; JSON holds them all.
-const LISTED: usize = 12;
-
-/// A run with more crossings than this gives no JSON: 40 MB of them.
-const MAX_CROSSINGS: usize = 1_000_000;
-
-/// The first crossings, and how many more there are.
-struct Crossings {
-    most: usize,
-    listed: Vec<Crossing>,
-    more: u64,
-}
-
-impl Crossings {
-    fn new(most: usize) -> Self {
-        Self { most, listed: Vec::new(), more: 0 }
-    }
-
-    fn add(&mut self, crossings: &[Crossing]) {
-        let (listed, more) = crossings.split_at(crossings.len().min(self.most - self.listed.len()));
-        self.listed.extend_from_slice(listed);
-        self.more += more.len() as u64;
-    }
-}
-
-fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
-    let (mm, degrees) = (|x: f64| x * 1e3, |x: f64| x.to_degrees());
-    match &report.contact {
-        Some(Contact { time, arc_length, bend }) => writeln!(
-            out,
-            "contact     {:.1} mm along the backbone, from {time:.3} s (bend {:.1}°)",
-            mm(*arc_length),
-            degrees(*bend)
-        )?,
-        None => writeln!(out, "contact     none")?,
-    }
-    match &report.detection {
-        Some(Found { detection, delay }) => {
-            let Detection { time, theta_l, location, .. } = detection;
-            write!(out, "detected    at {time:.3} s, θL = {:.2}°", degrees(*theta_l))?;
-            match delay {
-                Some(delay) if *delay >= 0.0 => writeln!(out, ", {delay:.3} s after contact")?,
-                Some(_) => writeln!(out, ": a false alarm, before any contact")?,
-                None => writeln!(out, ": a false alarm, there is no contact")?,
-            }
-            writeln!(out, "located     at {:.2} mm", mm(*location))?;
-        }
-        None => writeln!(out, "detected    nothing by the centrode")?,
-    }
-    for (name, peak, unit) in [
-        ("deviation", report.peak.deviation.map(|p| (p.time, mm(p.value))), "mm"),
-        ("residual", report.peak.residual.map(|p| (p.time, mm(p.value))), "mN·m"),
-    ] {
-        if let Some((time, value)) = peak {
-            writeln!(out, "{name:<11} at most {value:.3} {unit}, at {time:.3} s")?;
-        }
-    }
-    if report.events.is_empty() {
-        return writeln!(out, "\nno threshold was crossed");
-    }
-    writeln!(out, "\ndetector   raised [s]  cleared [s]    θL [°]          value      threshold")?;
-    for event in report.events.iter().take(LISTED) {
-        let Event { detector, raised, cleared, value, threshold, theta_l, .. } = event;
-        let unit = match detector {
-            Method::Fcd => "mm",
-            Method::Jfd => "mN·m",
-        };
-        let cleared = cleared.map_or("never".into(), |time| format!("{time:.3}"));
-        let (name, theta_l) = (detector.key(), degrees(*theta_l));
-        writeln!(
-            out,
-            "{name:<8} {raised:>12.3} {cleared:>12} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
-            mm(*value),
-            mm(*threshold)
-        )?;
-    }
-    if report.events.len() > LISTED {
-        writeln!(out, "… and {} more events (--json lists them all)", report.events.len() - LISTED)?;
-    }
-    match report.crossings.len() as u64 + report.more {
-        1 => writeln!(out, "a threshold was crossed once"),
-        count => writeln!(out, "thresholds were crossed {count} times (--json lists every crossing)"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_crossings_are_listed_and_the_others_counted() {
-        let at = |time| Crossing { method: Method::Fcd, time, theta_l: 0.0, value: 2.0, threshold: 1.0 };
-        let mut crossings = Crossings::new(3);
-        for some in [&[][..], &[at(1.0), at(2.0)], &[at(3.0), at(4.0)], &[at(5.0)]] {
-            crossings.add(some);
-        }
-        assert_eq!((crossings.listed, crossings.more), (vec![at(1.0), at(2.0), at(3.0)], 2));
+        Report::new(scenario, tally, simulation.events(), contact, None).print(out, self.json)
     }
 }

@@ -10,6 +10,8 @@
 mod cli;
 #[cfg(feature = "cli")]
 mod documented;
+#[cfg(feature = "cli")]
+mod example_logs;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
@@ -24,6 +26,12 @@ mod keys;
 mod link;
 #[cfg(feature = "cli")]
 mod link_command;
+#[cfg(feature = "cli")]
+mod log_formats;
+#[cfg(feature = "cli")]
+mod logs;
+#[cfg(feature = "cli")]
+mod mangled;
 mod map;
 #[cfg(feature = "cli")]
 mod map_command;

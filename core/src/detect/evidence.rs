@@ -5,6 +5,7 @@ use super::judge::Settings;
 use crate::model::centrode::centrode;
 use crate::model::{Configuration, Covector, Rate, Segment, Vec3};
 use crate::record::Entry;
+use crate::sensors::tracker::Reading;
 
 /// Added to ε_τ where the bound is a threshold, so that the last bits of Θ raise no alarm at k = 1 or without errors.
 const ROUNDING: f64 = 1e-12;
@@ -84,24 +85,48 @@ pub struct Observer {
     segment: Segment,
     epsilon_tau: f64,
     filter: PoseFilter,
+    /// The filter before its first reading.
+    empty: PoseFilter,
+    length: u64,
+    /// Readings until the average is whole again after a gap.
+    missing: u64,
 }
 
 impl Observer {
     /// Before the first entry.
     #[must_use]
     pub fn new(settings: &Settings) -> Self {
+        let filter = PoseFilter::new(&settings.filter, settings.loop_rate);
         Self {
             segment: settings.segment,
             epsilon_tau: settings.epsilon_tau,
-            filter: PoseFilter::new(&settings.filter, settings.loop_rate),
+            empty: filter.clone(),
+            filter,
+            length: settings.filter.length,
+            missing: 0,
         }
+    }
+
+    /// The motion as of the next reading. After a gap the average begins anew, and nothing is known until it is whole again: noise
+    /// in an average of a few readings would raise alarms.
+    fn motion(&mut self, reading: &Reading) -> FilteredMotion {
+        if reading.position.x.is_nan() {
+            (self.filter, self.missing) = (self.empty.clone(), self.length);
+            return FilteredMotion::UNDEFINED;
+        }
+        let motion = self.filter.push(reading);
+        if self.missing == 0 {
+            return motion;
+        }
+        self.missing -= 1;
+        FilteredMotion::UNDEFINED
     }
 
     /// Takes the next entry.
     pub fn observe(&mut self, entry: &Entry) -> Evidence {
         let Entry { configuration, reading, tau_lc, .. } = entry;
+        let motion = self.motion(reading);
         let (segment, epsilon_tau) = (&self.segment, self.epsilon_tau);
-        let motion = self.filter.push(reading);
         let expected = Expectation::new(segment, *configuration, epsilon_tau);
         let (sensor_centrode, deviation) = deviation(&expected.centrode, &motion);
         let judgement = Judgement {

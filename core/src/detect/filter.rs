@@ -87,6 +87,14 @@ pub struct FilteredMotion {
     pub twist: Twist,
 }
 
+impl FilteredMotion {
+    /// Where there is no reading.
+    pub const UNDEFINED: Self = {
+        let undefined = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
+        Self { position: undefined, twist: Twist { linear: undefined, angular: undefined } }
+    };
+}
+
 /// The filter of the whole pose. A value: it can be fed a sensor's readings or a model's.
 #[derive(Debug, Clone)]
 pub struct PoseFilter {

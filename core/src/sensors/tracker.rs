@@ -32,14 +32,7 @@ impl SimulatedTracker {
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let scenario = plan.scenario();
-        let tip_from_marker = match scenario.tracker.mounting {
-            Mounting::Aligned => Mat3::identity(),
-            Mounting::BendingAxis => {
-                // Turned about the tangent until x is the bending axis (sin δ, cos δ, 0).
-                let (s, c) = sincos(scenario.motion.delta);
-                Mat3::new(s, -c, 0.0, c, s, 0.0, 0.0, 0.0, 1.0)
-            }
-        };
+        let tip_from_marker = tip_from_marker(scenario.tracker.mounting, scenario.motion.delta);
         Self {
             settings: scenario.tracker.clone(),
             tip_from_marker,
@@ -51,8 +44,7 @@ impl SimulatedTracker {
     /// The reading that the loop sees at `time` (s). When it is a new one, `tip` gives the pose of the end disk in {B} at the time
     /// (s) at which it was taken.
     pub fn read(&mut self, time: f64, tip: impl FnOnce(f64) -> Pose) -> Reading {
-        // A time one rounding error before a refresh is the refresh.
-        let refresh = floor(time * self.settings.rate * (1.0 + 4.0 * f64::EPSILON));
+        let refresh = refresh(self.settings.rate, time);
         if let Some((at, reading)) = self.held
             && at == refresh
         {
@@ -87,13 +79,34 @@ impl SimulatedTracker {
     }
 }
 
+/// How a marker is mounted on the end disk of a robot that bends in the plane `delta` (rad): R̃_gᵀ.
+#[must_use]
+pub fn tip_from_marker(mounting: Mounting, delta: f64) -> Mat3 {
+    match mounting {
+        Mounting::Aligned => Mat3::identity(),
+        Mounting::BendingAxis => {
+            // Turned about the tangent until x is the bending axis (sin δ, cos δ, 0).
+            let (s, c) = sincos(delta);
+            Mat3::new(s, -c, 0.0, c, s, 0.0, 0.0, 0.0, 1.0)
+        }
+    }
+}
+
+/// Which of the refreshes of a tracker of `rate` Hz is the last at `time` (s), from 0.
+#[must_use]
+pub fn refresh(rate: f64, time: f64) -> f64 {
+    // A time one rounding error before a refresh is the refresh.
+    floor(time * rate * (1.0 + 4.0 * f64::EPSILON))
+}
+
 /// The multiple of `step` nearest to `value`; `value` itself for a step of 0 or too small to count.
 fn rounded(value: f64, step: f64) -> f64 {
     let steps = rint(value / step);
     if step > 0.0 && steps.is_finite() { step * steps } else { value }
 }
 
-/// `angle` plus the whole turns that bring it nearest to `before`.
-fn unwrapped(angle: f64, before: f64) -> f64 {
+/// `angle` plus the whole turns that bring it nearest to `before`, rad.
+#[must_use]
+pub fn unwrapped(angle: f64, before: f64) -> f64 {
     if (angle - before).abs() <= PI { angle } else { angle + TAU * rint((before - angle) / TAU) }
 }

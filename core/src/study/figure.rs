@@ -11,7 +11,7 @@ mod deviations;
 mod job;
 mod plans;
 mod residuals;
-mod thin;
+pub(super) mod thin;
 pub(super) mod words;
 
 pub use job::{FigureJob, Number, UnknownFigure};

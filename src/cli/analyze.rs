@@ -1,0 +1,233 @@
+//! `centrode analyze`: judge a log as a run is judged.
+
+mod about;
+
+pub use about::About;
+
+use super::ScenarioArgs;
+use super::draw::{self, Format as Drawing};
+use super::output::{Failure, NewFile, finish_csv, write_record};
+use super::report::{Report, Tally};
+use centrode_core::chart::csv::cell;
+use centrode_core::chart::notation::plain;
+use centrode_core::detect::{Method, Settings};
+use centrode_core::record::log::frame::{Frame, Setting};
+use centrode_core::record::log::{
+    self, Commands, Format, Log, LogError, MAX_BYTES, Mapping, Options, Rate, Setup, assemble,
+};
+use centrode_core::run::{CHANNELS, Replay};
+use centrode_core::scenario::{Scenario, Threshold};
+use centrode_core::study::timeline::Timeline;
+use clap::Args;
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+
+/// Flags of `centrode analyze`.
+#[derive(Debug, Args)]
+pub struct AnalyzeArgs {
+    /// The log: CSV, a TUM or EuRoC trajectory, NDI tool tracking or MCAP (see docs/LOGS.md).
+    #[arg(value_name = "LOG")]
+    log: PathBuf,
+    /// Take the commands from a second log with the same clock, or from the scenario's motion.
+    #[arg(long, value_name = "FILE|motion")]
+    commands: Option<PathBuf>,
+    #[command(flatten)]
+    scenario: Nominal,
+    /// Judge with these detectors alone: fcd, jfd.
+    #[arg(long, value_name = "NAMES", value_delimiter = ',')]
+    detectors: Vec<String>,
+    /// Say what a column is, as in x="Tx (mm)" or time=#1, with a unit of its own before the =; may be repeated.
+    #[arg(long = "map", value_name = "NAME=COLUMN")]
+    maps: Vec<String>,
+    /// Drop readings of a lower quality.
+    #[arg(long, value_name = "NUMBER")]
+    min_quality: Option<f64>,
+    /// Read the log as csv, tum, euroc, ndi or mcap, whatever its name and content look like.
+    #[arg(long, value_name = "FORMAT")]
+    format: Option<String>,
+    /// Which tool of an NDI file: its number, or a part of its port or name.
+    #[arg(long, value_name = "TOOL")]
+    tool: Option<String>,
+    /// Which topic of an MCAP file; may be repeated, for poses, joints and wrenches.
+    #[arg(long = "topic", value_name = "TOPIC")]
+    topics: Vec<String>,
+    /// Fit where the log's frame is, and how the marker is turned, to the readings before detection.armed_from.
+    #[arg(long)]
+    fit_frame: bool,
+    /// Where the log's frame is in {B}, m and rad.
+    #[arg(long, value_name = "X,Y,Z,AZIMUTH,ELEVATION,ROLL", allow_hyphen_values = true, conflicts_with = "fit_frame")]
+    frame: Option<String>,
+    /// Hold a reading, a command or a force for at most this long, s.
+    #[arg(long, value_name = "SECONDS")]
+    hold: Option<f64>,
+    /// Print JSON instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Write every channel at loop rate to a CSV file, units in the header.
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Draw what the detectors hold against their thresholds.
+    #[arg(long, value_name = "FILE.{svg,png}")]
+    figure: Option<PathBuf>,
+}
+
+/// The scenario that a log is judged by.
+#[derive(Debug, Args)]
+struct Nominal {
+    /// Scenario file (TOML): model, mounting, filter and thresholds; without it, the default scenario.
+    #[arg(long = "scenario", value_name = "SCENARIO.toml", conflicts_with = "preset")]
+    file: Option<PathBuf>,
+    /// Judge by a preset instead of a file (see `centrode presets`).
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// Judge by the scenario of a page's link: its address, or what stands behind the # in it.
+    #[arg(long, value_name = "URL", conflicts_with_all = ["file", "preset"])]
+    link: Option<String>,
+    /// Override one key, as in detection.xi2=0.005; may be repeated.
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    sets: Vec<String>,
+}
+
+impl Nominal {
+    /// The scenario, and whether it says how fast the loop ran.
+    fn resolved(&self) -> Result<(Scenario, Rate), Failure> {
+        let Self { file, preset, link, sets } = self;
+        let args = ScenarioArgs { file: file.clone(), preset: preset.clone(), link: link.clone(), sets: sets.clone() };
+        let named = file.is_some() || preset.is_some() || link.is_some();
+        let says = named || sets.iter().any(|set| set.trim_start().starts_with("loop_rate"));
+        Ok((args.scenario()?, if says { Rate::Scenario } else { Rate::Log }))
+    }
+}
+
+impl AnalyzeArgs {
+    /// Reads, judges and reports.
+    pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        let (mut scenario, rate) = self.scenario.resolved()?;
+        let detectors = self.detectors()?;
+        for (detector, threshold) in
+            [(Method::Fcd, &mut scenario.detection.xi2), (Method::Jfd, &mut scenario.detection.xi1)]
+        {
+            if !detectors.contains(&detector) {
+                *threshold = Threshold::OFF;
+            }
+        }
+        let drawing = self.figure.as_deref().map(|path| Drawing::of("--figure", path)).transpose()?;
+        let frame = match &self.frame {
+            Some(text) => {
+                Setting::Given(Frame::parse(text).map_err(|error| Failure::Input(format!("--frame: {error}")))?)
+            }
+            None if self.fit_frame => Setting::Fitted,
+            None => Setting::Base,
+        };
+        let (log, commands) = self.read(&scenario)?;
+        let about_log = blame(&self.log);
+        let setup = Setup { rate, commands, hold: self.hold, frame };
+        let assembled = assemble(&log, &scenario, &setup).map_err(&about_log)?;
+        for outlook in assembled.outlooks.iter().filter(|outlook| !outlook.works) {
+            if self.detectors.iter().any(|name| name == outlook.detector.key()) {
+                return Err(about_log(LogError::file(format!(
+                    "--detectors {}: {}",
+                    outlook.detector.key(),
+                    outlook.why
+                ))));
+            }
+        }
+        let plan = &assembled.plan;
+        let mut csv = self.csv.as_deref().map(NewFile::create).transpose()?.map(csv::Writer::from_writer);
+        if let Some(csv) = &mut csv {
+            write_record(csv, CHANNELS.iter().map(|channel| format!("{} [{}]", channel.name, channel.unit)))?;
+        }
+        let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
+        let entries = &assembled.recording.entries;
+        let mut timeline = figure.is_some().then(|| Timeline::new(plan.scenario(), &detectors, entries.len()));
+        let mut replay = Replay::new(entries, &Settings::of(plan));
+        let mut tally = Tally::new(self.json);
+        while let Some(sample) = replay.next() {
+            tally.add(&sample, &replay.take_crossings(), &plan.scenario().detection)?;
+            if let Some(timeline) = &mut timeline {
+                timeline.push(&sample);
+            }
+            if let Some(csv) = &mut csv {
+                // A log does not know what was true.
+                let value = |channel: &centrode_core::run::Channel| match channel.name {
+                    "in_contact" => String::new(),
+                    _ => cell((channel.value)(&sample)),
+                };
+                write_record(csv, CHANNELS.iter().map(value))?;
+            }
+        }
+        if let Some(csv) = csv {
+            finish_csv(csv)?;
+        }
+        if let (Some(mut file), Some(timeline), Some(drawing)) = (figure, timeline, drawing) {
+            let title = self.log.file_name().map_or(String::new(), |name| plain(&name.to_string_lossy()));
+            draw::write(&mut file, &timeline.finish(title, replay.events()), drawing)?;
+            file.finish()?;
+        }
+        let about = About::new(&log, &assembled);
+        Report::new(plan.scenario().clone(), tally, replay.events(), None, Some(about)).print(out, self.json)
+    }
+
+    fn detectors(&self) -> Result<Vec<Method>, Failure> {
+        if self.detectors.is_empty() {
+            return Ok(Method::ALL.into());
+        }
+        let of = |name: &String| {
+            Method::ALL.iter().copied().find(|method| method.key() == name).ok_or_else(|| {
+                let known: Vec<_> = Method::ALL.iter().map(|method| method.key()).collect();
+                let known = known.join(", ");
+                Failure::Input(format!("--detectors: there is no detector called {name:?}; known are: {known}"))
+            })
+        };
+        self.detectors.iter().map(of).collect()
+    }
+
+    /// The log with its commands, and where they come from when that was said.
+    fn read(&self, scenario: &Scenario) -> Result<(Log, Option<Commands>), Failure> {
+        let mappings = self.maps.iter().map(|text| Mapping::parse(text)).collect::<Result<Vec<_>, _>>();
+        let mappings = mappings.map_err(|error| Failure::Input(format!("--map: {error}")))?;
+        let of = |name: &String| {
+            Format::ALL.into_iter().find(|format| format.key() == name).ok_or_else(|| {
+                let known = Format::ALL.map(Format::key).join(", ");
+                Failure::Input(format!("--format: there is no format called {name:?}; known are: {known}"))
+            })
+        };
+        let options = Options {
+            format: self.format.as_ref().map(of).transpose()?,
+            mappings,
+            min_quality: self.min_quality,
+            tool: self.tool.clone(),
+            frame_rate: Some(scenario.tracker.rate),
+            topics: self.topics.clone(),
+        };
+        for (flag, value) in [("--min-quality", self.min_quality), ("--hold", self.hold)] {
+            if value.is_some_and(|value| !(0.0..=f64::MAX).contains(&value)) {
+                return Err(Failure::Input(format!("{flag}: not allowed; allowed: a number from 0 up")));
+            }
+        }
+        let mut log = read(&self.log, &options)?;
+        let Some(path) = self.commands.as_deref() else { return Ok((log, None)) };
+        if path == Path::new("motion") {
+            return Ok((log, Some(Commands::Motion)));
+        }
+        // Mappings are for the log; what it does not hold they may name in the file of commands.
+        let other = read(path, &Options { mappings: Vec::new(), format: None, ..options })?;
+        log.take_commands(other).map_err(blame(path))?;
+        Ok((log, Some(Commands::Log)))
+    }
+}
+
+/// Names the file in a refusal.
+fn blame(path: &Path) -> impl Fn(LogError) -> Failure {
+    let path = path.display().to_string();
+    move |error| Failure::Input(format!("{path}: {error}"))
+}
+
+fn read(path: &Path, options: &Options) -> Result<Log, Failure> {
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|file| file.take(MAX_BYTES + 1).read_to_end(&mut bytes))
+        .map_err(|error| Failure::Input(format!("cannot read {}: {error}", path.display())))?;
+    log::Log::read(&path.display().to_string(), bytes, options).map_err(blame(path))
+}
