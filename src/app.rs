@@ -1,10 +1,11 @@
 //! The interface.
 //!
 //! [`state::State`] is all that a person sets. [`memo::Memo`] turns its scenario into a run when that changes. Panels
-//! and views read both and emit [`command::Command`]s; `App::apply` carries them out, and nothing else changes state.
+//! and views read both and emit [`command::Command`]s; [`apply`] carries them out, and nothing else changes state.
 //!
 //! Time comes from egui's input alone, so that a test's pictures do not move.
 
+mod apply;
 pub mod charts;
 pub mod command;
 pub mod controls;
@@ -27,22 +28,17 @@ use egui::{Rect, Ui, vec2};
 use centrode_core::detect::Method;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
-use centrode_core::scenario::keys::find;
-use centrode_core::scenario::preset::Preset;
-use centrode_core::scenario::{Contact, Place, Start, Xi1Rule};
-use centrode_core::study::tuning::watch::Rule;
 use charts::plane;
 use charts::plots::{self, PlotState};
 use command::Command;
 use controls::Inputs;
-use controls::control::Control;
 use layout::Layout;
 use link::Sharing;
 use memo::Memo;
 use panels::chip::Chip;
 use stages::StageState;
 use stages::source::Source;
-use stages::stage::{Section, Stage};
+use stages::stage::Stage;
 use stages::studies::Studies;
 use stages::tuner::{Helper, Tuner};
 use stages::viewport::{self, ViewState};
@@ -316,177 +312,6 @@ impl App {
         if let Some(notice) = &sharing.notice {
             panels::notice::notice(ui, notice, out);
         }
-    }
-
-    /// Carries out commands. The only place where state changes, besides the passing of time.
-    fn apply(&mut self, ctx: &egui::Context, commands: &mut Vec<Command>) {
-        for command in commands.drain(..) {
-            match command {
-                Command::Seek(time) if time.is_finite() => self.state.time = time.clamp(0.0, self.end()),
-                Command::Seek(_) => {}
-                Command::Pause => self.state.playing = false,
-                Command::TogglePlay => self.toggle_play(),
-                Command::Step(hundredths) => {
-                    self.state.playing = false;
-                    let time = self.cursor() + f64::from(hundredths) * 0.01;
-                    self.state.time = ((time * 1e6).round() / 1e6).clamp(0.0, self.end());
-                }
-                Command::SetSpeed(speed) => self.state.speed = speed.clamp(0.1, 4.0),
-                Command::ToggleLoop => self.state.looping = !self.state.looping,
-                Command::Choose(preset) => {
-                    // Whoever chooses another experiment wants to see it: a figure would go on showing its own.
-                    if self.state.stage.own_preset().is_some_and(|own| own != preset.name) {
-                        self.state.stage = Stage::Robot;
-                    }
-                    self.choose(preset);
-                }
-                Command::Show(stage) => {
-                    self.state.stage = stage;
-                    if stage.section() == Section::Paper {
-                        self.state.paper = stage;
-                    }
-                }
-                Command::Touch { arc_length, bend } => self.change(&["contact.disk", "contact.time"], |s| {
-                    s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend) };
-                    Ok(())
-                }),
-                Command::Tune(tuning) => self.state.tuning = tuning,
-                Command::Take { rule, threshold, length } => self.take(rule, threshold, length),
-                Command::HoldStudy(held) => self.tuner.hold(held),
-                Command::ResetAll => self.load(self.base.clone()),
-                Command::SetXi1(xi1) => self.change(&["detection.xi1"], |s| {
-                    s.detection.xi1 = xi1;
-                    Ok(())
-                }),
-                Command::SetXi2(xi2) => self.change(&["detection.xi2"], |s| {
-                    s.detection.xi2 = xi2;
-                    Ok(())
-                }),
-                Command::SetArmedFrom(time) => self.change(&["detection.armed_from"], |s| {
-                    s.detection.armed_from = time;
-                    Ok(())
-                }),
-                Command::Set(control, value) => {
-                    self.sharing.slid = Some(control.key);
-                    self.change(&[control.key], |s| {
-                        control.slide(s, value);
-                        Ok(())
-                    });
-                }
-                Command::Enter(control, text) => self.change(&[control.key], |s| control.enter(s, &text)),
-                Command::Switch(control, on) => self.switch(control, on),
-                Command::Pick(choice, option) => self.change(&[choice.of.path], |s| {
-                    choice.of.choose(s, option);
-                    Ok(())
-                }),
-                Command::Reset(control) => self.restore(control.key, |from, to| control.copy(from, to)),
-                Command::ResetChoice(choice) => self.restore(choice.of.path, |from, to| choice.of.copy(from, to)),
-                Command::NextTheme => {
-                    self.state.theme = self.state.theme.next();
-                    ctx.set_theme(self.state.theme.preference());
-                }
-                Command::Fold(group) => {
-                    if !self.state.folded.remove(group) {
-                        self.state.folded.insert(group.into());
-                    }
-                }
-                Command::ShowTab(tab) => self.state.tab = tab,
-                Command::ToggleSheet => self.state.sheet = !self.state.sheet,
-                Command::ToggleHelp => self.state.help = !self.state.help,
-                Command::Share(what) => self.share(ctx, what),
-                Command::CloseNotice => self.sharing.notice = None,
-                Command::CopyNotice => self.copy_notice(ctx),
-            }
-        }
-    }
-
-    /// Takes what a study has shown.
-    fn take(&mut self, rule: Rule, threshold: f64, length: Option<u64>) {
-        let key = match (rule, self.state.scenario.detection.xi1_rule) {
-            (Rule::Jfd, Xi1Rule::Constant) => "detection.xi1",
-            (Rule::Jfd, Xi1Rule::Bound) => "detection.xi1_factor",
-            _ => "detection.xi2",
-        };
-        self.change(&[key, "filter.length"], |s| {
-            if let Some(key) = find(key) {
-                key.set_number(s, threshold);
-            }
-            s.filter.length = length.unwrap_or(s.filter.length);
-            Ok(())
-        });
-    }
-
-    fn choose(&mut self, preset: &Preset) {
-        self.state.preset = preset.name.into();
-        self.base = state::shipped(preset);
-        self.load(self.base.clone());
-        self.state.time = state::lead_in(&self.state.scenario);
-    }
-
-    fn toggle_play(&mut self) {
-        self.state.playing = !self.state.playing;
-        if self.state.playing && self.cursor() >= self.end() {
-            self.state.time = state::lead_in(self.memo.run().plan.scenario());
-        }
-    }
-
-    fn load(&mut self, scenario: Scenario) {
-        self.notes.clear();
-        self.state.remembered.clear();
-        self.state.scenario = scenario;
-    }
-
-    /// Changes what controls (`asked`, by key) set if what comes out can be run; else says why not, beside the one of them
-    /// that is refused or beside the first, and changes nothing.
-    fn change(&mut self, asked: &[&'static str], change: impl FnOnce(&mut Scenario) -> Result<(), String>) {
-        let mut scenario = self.state.scenario.clone();
-        let first = asked.first().copied().unwrap_or_default();
-        let checked = change(&mut scenario).map_err(|note| (first, note)).and_then(|()| {
-            memo::check(&scenario).map_err(|refused| {
-                let control = refusal::control(&refused).map(|control| control.key);
-                let key = asked.iter().copied().find(|key| Some(*key) == control).unwrap_or(first);
-                (key, refusal::told(&refused))
-            })
-        });
-        match checked {
-            Ok(()) => {
-                self.remember(&scenario);
-                asked.iter().for_each(|key| drop(self.notes.remove(key)));
-                self.state.scenario = scenario;
-            }
-            Err((key, note)) => {
-                self.notes.insert(key, format!("{note}. Nothing was changed."));
-            }
-        }
-    }
-
-    /// Keeps the values of controls that a change switches off.
-    fn remember(&mut self, next: &Scenario) {
-        for control in controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|c| c.has_off()) {
-            if let (Some(value), None) = (control.value(&self.state.scenario), control.value(next)) {
-                self.state.remembered.insert(control.key.into(), value);
-            }
-        }
-    }
-
-    fn switch(&mut self, control: &'static Control, on: bool) {
-        let value = self.state.otherwise(control, &self.base);
-        self.change(&[control.key], |scenario| {
-            match (on, value) {
-                (true, Some(value)) => control.slide(scenario, value),
-                (true, None) => {}
-                (false, _) => control.of.switch_off(scenario),
-            }
-            Ok(())
-        });
-    }
-
-    fn restore(&mut self, key: &'static str, copy: impl FnOnce(&Scenario, &mut Scenario)) {
-        let base = self.base.clone();
-        self.change(&[key], |scenario| {
-            copy(&base, scenario);
-            Ok(())
-        });
     }
 }
 

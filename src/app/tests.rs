@@ -1,6 +1,7 @@
 //! What commands come to, without anything drawn.
 
 use super::*;
+use centrode_core::study::tuning::watch::Rule;
 use centrode_core::scenario::Threshold;
 
 fn page() -> (egui::Context, App) {
