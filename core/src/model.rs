@@ -15,6 +15,7 @@ pub mod arc;
 pub mod centrode;
 pub mod configuration;
 pub mod constrained;
+pub mod contact;
 pub mod joints;
 pub mod location;
 pub mod orientation;

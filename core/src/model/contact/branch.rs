@@ -1,0 +1,282 @@
+//! One contact over all bends: where it holds, how it ends, and the tip at the price of a polynomial.
+//!
+//! Against a fixed obstacle the shape is a smooth function of the bend φ alone, without history. A branch is followed from
+//! first contact to the last bend asked for, or to where it ends; on it the tip is interpolated at Chebyshev points, piece by
+//! piece, to rounding.
+
+use super::plane::Solved;
+use super::ritz::Basis;
+use super::{Meeting, Planar, Touching, Unknowns, cylinder, plane};
+use libm::cos;
+use std::f64::consts::PI;
+
+/// What the segment touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surface {
+    /// A plane that holds one point of the backbone along its normal.
+    Plane,
+    /// A round beam along which the backbone's round envelope slides.
+    Cylinder {
+        /// Radius of the beam and of the envelope, in units of L.
+        rounding: f64,
+    },
+}
+
+/// How a branch ends before the last bend that was asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// The shape loses its stability and the segment snaps off.
+    Snaps,
+    /// The contact slides over the end of the backbone.
+    SlidesOff,
+    /// The contact force falls to zero.
+    Opens,
+}
+
+/// The tip and what acts there, at one bend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// Position, in units of L.
+    pub position: Planar,
+    /// Its derivative by φ.
+    pub by_bend: Planar,
+    /// Bend of the part above the contact, rad.
+    pub upper_bend: f64,
+    /// Arc length of the contact, in units of L.
+    pub place: f64,
+}
+
+/// What a piece interpolates: tip, its derivative, slope at the contact, place.
+const VALUES: usize = 6;
+/// Chebyshev points of a piece.
+const POINTS: usize = 24;
+/// A piece is good when its last coefficients are below this: they tell what is left out.
+const ROUNDING: f64 = 2e-14;
+/// No piece is split below this width, rad: near a snap the shape goes like a root.
+const NARROW: f64 = 1e-4;
+/// Steps along the branch, rad: the longest, and where the search for an end stops.
+const STRIDE: f64 = 0.04;
+const FINE: f64 = 1e-10;
+/// A shape further from where the last one led, rad per coefficient, is on another branch.
+const LEAP: f64 = 0.2;
+
+/// The shapes of one contact over the bends at which it holds.
+#[derive(Debug, Clone)]
+pub struct Branch {
+    basis: Basis,
+    meeting: Meeting,
+    surface: Surface,
+    /// Shapes found on the way, in order.
+    anchors: Vec<Touching>,
+    pieces: Vec<Piece>,
+    ending: Option<(f64, Ending)>,
+}
+
+#[derive(Debug, Clone)]
+struct Piece {
+    middle: f64,
+    half: f64,
+    series: [[f64; POINTS]; VALUES],
+}
+
+impl Branch {
+    /// Follows a contact from where it was met to the bend `last` (rad), which lies on its side.
+    #[must_use]
+    pub fn new(meeting: Meeting, surface: Surface, last: f64) -> Self {
+        let basis = Basis::new();
+        let mut branch = Self { basis, meeting, surface, anchors: Vec::new(), pieces: Vec::new(), ending: None };
+        branch.follow(last);
+        if let (Some(first), Some(end)) = (branch.anchors.first(), branch.anchors.last()) {
+            let (from, to) = (first.bend, end.bend);
+            branch.fit(from, to);
+        }
+        branch
+    }
+
+    /// What was met, and where.
+    #[must_use]
+    pub fn meeting(&self) -> &Meeting {
+        &self.meeting
+    }
+
+    /// What the segment touches.
+    #[must_use]
+    pub fn surface(&self) -> Surface {
+        self.surface
+    }
+
+    /// Quadrature for [`Touching::point`].
+    #[must_use]
+    pub fn basis(&self) -> &Basis {
+        &self.basis
+    }
+
+    /// The bend (rad) at which the contact ends before the last bend asked for, and how.
+    #[must_use]
+    pub fn ending(&self) -> Option<(f64, Ending)> {
+        self.ending
+    }
+
+    /// Whether the contact holds the backbone at a bend φ (rad).
+    #[must_use]
+    pub fn holds_at(&self, bend: f64) -> bool {
+        let beyond = |limit: f64| self.meeting.side * (bend - limit);
+        beyond(self.meeting.bend) > 0.0 && self.anchors.last().is_some_and(|end| beyond(end.bend) <= 0.0)
+    }
+
+    /// The tip at a bend at which the contact holds; at another, that of the nearest such bend.
+    #[must_use]
+    pub fn tip(&self, bend: f64) -> Tip {
+        let side = self.meeting.side;
+        let at = self.pieces.partition_point(|piece| side * (bend - piece.middle) > piece.half);
+        let Some(piece) = self.pieces.get(at).or(self.pieces.last()) else {
+            return self.exactly(bend).map_or(NOWHERE, |touching| self.tip_of(&touching));
+        };
+        let x = ((bend - piece.middle) / piece.half).clamp(-1.0, 1.0);
+        let [px, pz, vx, vz, slope, place] = clenshaw(&piece.series, x);
+        let position = Planar::new(px, pz);
+        Tip { position, by_bend: Planar::new(vx, vz), upper_bend: bend - slope, place }
+    }
+
+    /// The shape at a bend at which the contact holds; `None` elsewhere.
+    #[must_use]
+    pub fn shape(&self, bend: f64) -> Option<Touching> {
+        if self.holds_at(bend) || bend == self.meeting.bend { self.exactly(bend) } else { None }
+    }
+
+    fn exactly(&self, bend: f64) -> Option<Touching> {
+        let side = self.meeting.side;
+        let after = self.anchors.partition_point(|anchor| side * (anchor.bend - bend) <= 0.0);
+        let near = self.anchors.get(after.saturating_sub(1))?;
+        if near.bend == bend {
+            return Some(*near);
+        }
+        self.solve(bend, &led(near, bend)).map(|solved| solved.touching)
+    }
+
+    fn solve(&self, bend: f64, from: &Unknowns) -> Option<Solved> {
+        match self.surface {
+            Surface::Plane => plane::solve(&self.basis, &self.meeting, bend, Some(from)),
+            Surface::Cylinder { rounding } => cylinder::solve(&self.basis, &self.meeting, rounding, bend, Some(from)),
+        }
+    }
+
+    /// Finds anchors up to `last`, or to an end.
+    fn follow(&mut self, last: f64) {
+        let Meeting { place, bend, side } = self.meeting;
+        let coefficients = plane::first(self.meeting.slope());
+        let start = Unknowns { coefficients, place, multiplier: 0.0 };
+        let Some(first) = self.solve(bend, &start).filter(|first| first.stable) else {
+            self.ending = Some((bend, Ending::Snaps));
+            return;
+        };
+        let mut near = first.touching;
+        self.anchors.push(near);
+        let mut stride = STRIDE;
+        while side * (last - near.bend) > 0.0 {
+            let left = side * (last - near.bend);
+            let bend = if stride < left { near.bend + side * stride } else { last };
+            match self.next(&near, bend) {
+                Ok(touching) => {
+                    near = touching;
+                    self.anchors.push(near);
+                    stride = (2.0 * stride).min(STRIDE);
+                }
+                Err(how) if stride < FINE => {
+                    self.ending = Some((near.bend, how));
+                    return;
+                }
+                Err(_) => stride = 0.5 * stride.min(left),
+            }
+        }
+    }
+
+    /// The shape at a bend a step further, if the branch goes so far.
+    fn next(&self, near: &Touching, bend: f64) -> Result<Touching, Ending> {
+        let from = led(near, bend);
+        let found = self.solve(bend, &from).ok_or(Ending::Snaps)?;
+        let Touching { at, .. } = found.touching;
+        let leap = at.coefficients.iter().zip(from.coefficients).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        if !found.stable || leap > LEAP {
+            return Err(Ending::Snaps);
+        }
+        // So near to the end there is no arc above the contact left to speak of.
+        if at.place > 1.0 - 1e-6 || at.place < 1e-6 {
+            return Err(Ending::SlidesOff);
+        }
+        if at.multiplier * self.meeting.side < 0.0 {
+            return Err(Ending::Opens);
+        }
+        Ok(found.touching)
+    }
+
+    /// Interpolates between two bends, in as many pieces as it takes.
+    fn fit(&mut self, from: f64, to: f64) {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from).abs());
+        if half == 0.0 {
+            return;
+        }
+        let sample = |k: usize| {
+            let x = cos(PI * (k as f64 + 0.5) / POINTS as f64);
+            let touching = self.exactly(middle + half * x)?;
+            let Tip { position, by_bend, .. } = self.tip_of(&touching);
+            Some([position.x, position.y, by_bend.x, by_bend.y, touching.slope(), touching.at.place])
+        };
+        let samples: Option<Vec<_>> = (0..POINTS).map(sample).collect();
+        let series = samples.map(|samples| coefficients(&samples));
+        let good = |series: &[[f64; POINTS]; VALUES]| {
+            series.iter().all(|row| row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING))
+        };
+        match series {
+            Some(series) if good(&series) || half < NARROW => self.pieces.push(Piece { middle, half, series }),
+            _ if half < NARROW => {}
+            _ => {
+                self.fit(from, middle);
+                self.fit(middle, to);
+            }
+        }
+    }
+
+    fn tip_of(&self, touching: &Touching) -> Tip {
+        let (position, by_bend) = touching.tip(&self.basis);
+        Tip { position, by_bend, upper_bend: touching.upper_bend(), place: touching.at.place }
+    }
+}
+
+const NOWHERE: Tip = Tip {
+    position: Planar::new(f64::NAN, f64::NAN),
+    by_bend: Planar::new(f64::NAN, f64::NAN),
+    upper_bend: f64::NAN,
+    place: f64::NAN,
+};
+
+/// Where a shape leads at another bend, to first order.
+fn led(near: &Touching, bend: f64) -> Unknowns {
+    let step = bend - near.bend;
+    let mut at = near.at;
+    at.coefficients.iter_mut().zip(near.by_bend.coefficients).for_each(|(b, by)| *b += step * by);
+    at.place += step * near.by_bend.place;
+    at.multiplier += step * near.by_bend.multiplier;
+    at
+}
+
+/// Chebyshev coefficients of values at the points cos(π(k + ½)/n); the first is halved.
+fn coefficients(samples: &[[f64; VALUES]]) -> [[f64; POINTS]; VALUES] {
+    let n = POINTS as f64;
+    let term = |value: usize, j: usize| {
+        let sum: f64 = (0..POINTS).map(|k| samples[k][value] * cos(PI * j as f64 * (k as f64 + 0.5) / n)).sum();
+        if j == 0 { sum / n } else { 2.0 * sum / n }
+    };
+    std::array::from_fn(|value| std::array::from_fn(|j| term(value, j)))
+}
+
+/// The sums of several Chebyshev series at x in [−1, 1].
+fn clenshaw(series: &[[f64; POINTS]; VALUES], x: f64) -> [f64; VALUES] {
+    let (mut a, mut b) = ([0.0; VALUES], [0.0; VALUES]);
+    for j in (1..POINTS).rev() {
+        for v in 0..VALUES {
+            (a[v], b[v]) = (series[v][j] + 2.0 * x * a[v] - b[v], a[v]);
+        }
+    }
+    std::array::from_fn(|v| series[v][0] + x * a[v] - b[v])
+}

@@ -1,0 +1,318 @@
+//! Touching shapes against 40-digit values, closed forms, and each other.
+
+use super::branch::{Branch, Ending, Surface};
+use super::ritz::Basis;
+use super::*;
+use nalgebra::{Matrix4, Vector4};
+use serde::Deserialize;
+use std::f64::consts::PI;
+
+#[derive(Deserialize)]
+struct Reference {
+    cases: Vec<Case>,
+}
+
+/// Numbers are strings, as they have 40 digits.
+#[derive(Deserialize)]
+struct Case {
+    s_c: String,
+    phi_contact: String,
+    phi: String,
+    tip_x: String,
+    tip_z: String,
+    tip_angle: String,
+    dtip_x_dphi: String,
+    dtip_z_dphi: String,
+    centrode_x: String,
+    centrode_z: String,
+    slope_at_contact: String,
+    dslope_dphi: String,
+    #[serde(rename = "contact_force_L2_over_EI")]
+    force: String,
+    dforce_dphi: String,
+    #[serde(rename = "curvature_above_L")]
+    curvature_above: String,
+    #[serde(rename = "curvature_base_L")]
+    curvature_base: String,
+    contact_x: String,
+    contact_z: String,
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().expect("a number")
+}
+
+fn meeting(place: f64, bend: f64) -> Meeting {
+    Meeting { place, bend, side: 1.0 }
+}
+
+#[test]
+fn a_plane_has_the_reference_values() {
+    let reference: Reference =
+        serde_json::from_str(include_str!("../../../../tests/data/touch.json")).expect("reference");
+    assert_eq!(reference.cases.len(), 25);
+    let basis = Basis::new();
+    for case in &reference.cases {
+        let meeting = meeting(number(&case.s_c), number(&case.phi_contact));
+        let bend = number(&case.phi);
+        let solved = plane::solve(&basis, &meeting, bend, None).expect("a shape");
+        assert!(solved.stable);
+        let shape = solved.touching;
+        let (tip, by) = shape.tip(&basis);
+        let (end, angle) = shape.point(&basis, 1.0);
+        let (held, slope) = shape.point(&basis, meeting.place);
+        let centrode = shape.centrode(&basis);
+        let force_by = shape.by_bend.multiplier / (meeting.place * meeting.place);
+        let tolerance = if bend < 0.5001 * PI { 1e-13 } else { 1e-9 };
+        for (what, ours, theirs, size) in [
+            ("tip x", tip.x, &case.tip_x, 1.0),
+            ("tip z", tip.y, &case.tip_z, 1.0),
+            ("end x", end.x, &case.tip_x, 1.0),
+            ("end z", end.y, &case.tip_z, 1.0),
+            ("angle", angle, &case.tip_angle, 1.0),
+            ("tip x by φ", by.x, &case.dtip_x_dphi, 1.0),
+            ("tip z by φ", by.y, &case.dtip_z_dphi, 1.0),
+            ("centrode x", centrode.x, &case.centrode_x, 1.0),
+            ("centrode z", centrode.y, &case.centrode_z, 1.0),
+            ("slope", slope, &case.slope_at_contact, 1.0),
+            ("slope by φ", shape.by_bend.coefficients[0], &case.dslope_dphi, 1.0),
+            ("force", shape.force(), &case.force, 100.0),
+            ("force by φ", force_by, &case.dforce_dphi, 100.0),
+            ("curvature above", shape.curvature_above(), &case.curvature_above, 1.0),
+            ("curvature at the base", shape.curvature(0.0), &case.curvature_base, 1e5),
+            ("contact x", held.x, &case.contact_x, 1.0),
+            ("contact z", held.y, &case.contact_z, 1.0),
+        ] {
+            let error = (ours - number(theirs)).abs();
+            let (at, bend) = (&case.s_c, bend.to_degrees());
+            assert!(error <= tolerance * size, "{what} at {at}, {bend}°: {ours} for {theirs}, off by {error:e}");
+        }
+    }
+}
+
+#[test]
+fn a_cylinder_of_no_radius_that_touches_where_it_did_is_a_plane_of_small_bends() {
+    // At first contact, and to first order beyond it, nothing has slid yet.
+    let basis = Basis::new();
+    for place in [0.25, 0.5, 0.75] {
+        let meeting = meeting(place, 0.3);
+        let shape = cylinder::solve(&basis, &meeting, 0.0, 0.3, None).expect("a shape");
+        let plane = plane::solve(&basis, &meeting, 0.3, None).expect("a shape");
+        assert!(shape.stable && plane.stable, "{place}");
+        let (a, b) = (shape.touching.tip(&basis), plane.touching.tip(&basis));
+        assert!((a.0 - b.0).amax() < 1e-14 && (a.1 - b.1).amax() < 1e-12, "{a:?} {b:?}");
+    }
+}
+
+fn along(meeting: &Meeting, surface: Surface, last: f64) -> (Branch, Vec<Touching>) {
+    let branch = Branch::new(*meeting, surface, last);
+    let end = branch.ending().map_or(last, |(bend, _)| bend);
+    let bends = (1..=40).map(|k| meeting.bend + (end - meeting.bend) * f64::from(k) / 40.0);
+    let shapes = bends.map(|bend| branch.shape(bend).expect("on the branch")).collect();
+    (branch, shapes)
+}
+
+fn all() -> Vec<(Meeting, Surface)> {
+    let mut all = Vec::new();
+    for place in [0.1, 0.25, 0.5, 0.75, 0.9] {
+        for bend in [0.05, 0.6, 1.2] {
+            for surface in [Surface::Plane, Surface::Cylinder { rounding: 0.1 }, Surface::Cylinder { rounding: 0.01 }] {
+                all.push((meeting(place, bend), surface));
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn a_branch_goes_through_every_bend_and_its_polynomials_are_exact() {
+    for (meeting, surface) in all() {
+        let (branch, shapes) = along(&meeting, surface, PI);
+        assert!(branch.ending().is_none_or(|(_, how)| how == Ending::SlidesOff), "{meeting:?} {surface:?}");
+        for shape in shapes {
+            let (tip, by) = shape.tip(branch.basis());
+            let fast = branch.tip(shape.bend);
+            let off = (tip - fast.position).amax().max((by - fast.by_bend).amax() * 0.1);
+            assert!(off < 1e-12, "{meeting:?} {surface:?} at {}: off by {off:e}", shape.bend);
+            assert!(
+                (fast.upper_bend - shape.upper_bend()).abs() < 1e-12 && (fast.place - shape.at.place).abs() < 1e-12
+            );
+        }
+    }
+}
+
+#[test]
+fn bend_and_what_is_held_are_kept_and_the_force_pushes() {
+    for (meeting, surface) in all() {
+        let (branch, shapes) = along(&meeting, surface, PI);
+        let basis = branch.basis();
+        let first = branch.shape(meeting.bend).expect("first contact");
+        assert!(first.force().abs() < 1e-12, "{}", first.force());
+        let centre = |shape: &Touching| {
+            let (point, slope) = shape.point(basis, shape.at.place);
+            match surface {
+                Surface::Plane => {
+                    let (sin, cos) = meeting.slope().sin_cos();
+                    // Only the position along the normal is held.
+                    Planar::new(point.x * cos - point.y * sin, 0.0)
+                }
+                Surface::Cylinder { rounding } => point + Planar::new(slope.cos(), -slope.sin()) * rounding,
+            }
+        };
+        let mut force = 0.0;
+        for shape in shapes {
+            assert!((shape.point(basis, 1.0).1 - shape.bend).abs() < 1e-14 * 8.0);
+            let off = (centre(&shape) - centre(&first)).amax();
+            assert!(off < 1e-12, "{meeting:?} {surface:?} at {}: moved by {off:e}", shape.bend);
+            assert!(shape.force() > force, "{meeting:?} {surface:?} at {}", shape.bend);
+            force = if surface == Surface::Plane { shape.force() } else { 0.0 };
+        }
+    }
+}
+
+#[test]
+fn the_tips_velocity_is_the_derivative_of_its_position() {
+    for (meeting, surface) in all() {
+        let (branch, shapes) = along(&meeting, surface, PI);
+        for shape in shapes.iter().step_by(7).take(5) {
+            let h = 1e-3;
+            let at = |k: f64| branch.shape(shape.bend + k * h).map(|shape| shape.tip(branch.basis()).0);
+            let (Some(a), Some(b), Some(c), Some(d)) = (at(-2.0), at(-1.0), at(1.0), at(2.0)) else { continue };
+            let difference = (a - d + (c - b) * 8.0) / (12.0 * h);
+            let off = (difference - shape.tip(branch.basis()).1).amax();
+            assert!(off < 1e-8, "{meeting:?} {surface:?} at {}: off by {off:e}", shape.bend);
+        }
+    }
+}
+
+#[test]
+fn it_costs_less_energy_than_a_clamp_and_more_than_an_arc() {
+    for (meeting, surface) in all() {
+        let (_, shapes) = along(&meeting, surface, PI);
+        for shape in shapes {
+            let (frozen, above) = (meeting.slope(), shape.bend - meeting.slope());
+            let clamp = 0.5 * (frozen * frozen / meeting.place + above * above / (1.0 - meeting.place));
+            let free = 0.5 * shape.bend * shape.bend;
+            let energy = shape.energy();
+            assert!(free < energy && energy < clamp, "{meeting:?} {surface:?}: {free} {energy} {clamp}");
+        }
+    }
+}
+
+#[test]
+fn bending_the_other_way_is_the_mirror_image() {
+    for (meeting, surface) in all().into_iter().step_by(5) {
+        let mirrored = Meeting { bend: -meeting.bend, side: -1.0, ..meeting };
+        let (branch, shapes) = along(&meeting, surface, 2.0);
+        let other = Branch::new(mirrored, surface, -2.0);
+        for shape in shapes {
+            let (a, b) = (branch.tip(shape.bend), other.tip(-shape.bend));
+            let off = (a.position.x + b.position.x).abs().max((a.position.y - b.position.y).abs());
+            assert!(off < 1e-12, "{meeting:?} {surface:?}: off by {off:e}");
+            assert!((a.by_bend.x - b.by_bend.x).abs().max((a.by_bend.y + b.by_bend.y).abs()) < 1e-11);
+        }
+    }
+}
+
+#[test]
+fn near_first_contact_the_slope_turns_at_its_known_share() {
+    for place in [0.1, 0.25, 0.5, 0.75, 0.9] {
+        let meeting = meeting(place, 1e-6);
+        for surface in [Surface::Plane, Surface::Cylinder { rounding: 0.1 }] {
+            let branch = Branch::new(meeting, surface, 2e-6);
+            let shape = branch.shape(1e-6).expect("first contact");
+            // For small bends the slope at the contact turns at 1/(4 − 3s) of its free rate s.
+            let rate = shape.by_bend.coefficients[0] / place;
+            assert!((rate - 1.0 / (4.0 - 3.0 * place)).abs() < 1e-6, "{place}: {rate}");
+            // And the deviation of the centrodes settles at s(3 − 2s)/(2(4 − 3s)).
+            let free = Planar::new(0.0, 0.5);
+            let deviation = (shape.centrode(branch.basis()) - free).norm();
+            let known = place * (3.0 - 2.0 * place) / (2.0 * (4.0 - 3.0 * place));
+            assert!((deviation - known).abs() < 2e-6, "{place}: {deviation} {known}");
+        }
+    }
+}
+
+/// α, κ, x, z at the end of the part below the contact, by Runge–Kutta from the base.
+fn shot(curvature: f64, force: f64, slope: f64, place: f64) -> [f64; 4] {
+    let steps = 2000;
+    let h = place / f64::from(steps);
+    let rate = |y: [f64; 4]| [y[1], force * (y[0] - slope).cos(), y[0].sin(), y[0].cos()];
+    let ahead = |y: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
+    (0..steps).fold([0.0, curvature, 0.0, 0.0], |y, _| {
+        let a = rate(y);
+        let b = rate(ahead(y, a, 0.5 * h));
+        let c = rate(ahead(y, b, 0.5 * h));
+        let d = rate(ahead(y, c, h));
+        std::array::from_fn(|i| y[i] + h / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + d[i]))
+    })
+}
+
+/// Curvature at the base, force, place and slope of the force's line, from a start near by: what is left of the four equations
+/// is zero.
+fn shoot(start: Vector4<f64>, left: impl Fn(&Vector4<f64>) -> Vector4<f64>) -> Vector4<f64> {
+    (0..6).fold(start, |at, _| {
+        let column = |i: usize| {
+            let step = Vector4::ith(i, 1e-6 * at[i].abs().max(1.0));
+            (left(&(at + step)) - left(&(at - step))) / (2.0 * step[i])
+        };
+        let jacobian = Matrix4::from_columns(&[column(0), column(1), column(2), column(3)]);
+        at - jacobian.lu().solve(&left(&at)).expect("regular")
+    })
+}
+
+#[test]
+fn shooting_finds_the_same_shapes() {
+    let mut compared = 0;
+    for (meeting, surface) in all() {
+        let (branch, shapes) = along(&meeting, surface, 2.0);
+        let first = branch.shape(meeting.bend).expect("first contact").point(branch.basis(), meeting.place).0;
+        let toward = |slope: f64| Planar::new(slope.cos(), -slope.sin());
+        // Nearer to the end of the backbone shooting loses its digits.
+        let apart = [&shapes[9], &shapes[24], &shapes[39]].into_iter().filter(|shape| shape.at.place < 0.98);
+        for shape in apart {
+            compared += 1;
+            let left = |at: &Vector4<f64>| {
+                let (place, slope) = (at[2], at[3]);
+                let [angle, curvature, x, z] = shot(at[0], at[1], slope, place);
+                let moment = curvature - (shape.bend - angle) / (1.0 - place);
+                let moved = Planar::new(x, z) - first;
+                match surface {
+                    Surface::Plane => {
+                        let known = meeting.slope();
+                        Vector4::new(moment, moved.dot(&toward(known)), place - meeting.place, slope - known)
+                    }
+                    Surface::Cylinder { rounding } => {
+                        let moved = moved + (toward(slope) - toward(meeting.slope())) * rounding;
+                        Vector4::new(moment, moved.x, moved.y, angle - slope)
+                    }
+                }
+            };
+            let start = Vector4::new(shape.curvature(0.0), shape.force(), shape.at.place, shape.force_slope);
+            let found = shoot(start, left);
+            assert!(left(&found).amax() < 1e-9, "{meeting:?} {surface:?} at {}: {found} {}", shape.bend, left(&found));
+            let (place, [angle, _, x, z]) = (found[2], shot(found[0], found[1], found[3], found[2]));
+            let tip = Planar::new(x, z) + arc(angle, shape.bend - angle, 1.0 - place);
+            let off = (tip - shape.tip(branch.basis()).0).amax();
+            assert!(off < 1e-8, "{meeting:?} {surface:?} at {}: off by {off:e}", shape.bend);
+        }
+    }
+    assert!(compared > 100, "{compared}");
+}
+
+#[test]
+fn a_segment_that_straightens_against_a_beam_snaps_off_where_it_is_known_to() {
+    // 135° at contact, 22.5 and 28.5 of 30 mm.
+    for (place, known) in [(0.75, -111.98), (0.95, -31.42)] {
+        let meeting = Meeting { place, bend: 135_f64.to_radians(), side: -1.0 };
+        let branch = Branch::new(meeting, Surface::Plane, -PI);
+        let (bend, how) = branch.ending().expect("an end");
+        assert_eq!(how, Ending::Snaps);
+        assert!((bend.to_degrees() - known).abs() < 0.1, "{place}: {}", bend.to_degrees());
+        assert!(branch.holds_at(bend + 1e-6) && !branch.holds_at(bend - 1e-6));
+    }
+    for place in [0.1, 0.25, 0.5, 0.75, 0.95] {
+        let meeting = Meeting { place, bend: 0.5 * PI, side: -1.0 };
+        assert_eq!(Branch::new(meeting, Surface::Plane, 0.0).ending(), None, "{place}");
+    }
+}
