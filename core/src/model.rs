@@ -26,6 +26,7 @@ pub mod twist;
 pub use arc::{Arc, Jacobian, Pose};
 pub use configuration::{Configuration, Rate};
 pub use constrained::Constrained;
+pub use contact::touched::Touched;
 pub use location::{Location, locate};
 pub use statics::{Covector, Segment};
 pub use twist::{Twist, Wrench};

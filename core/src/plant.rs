@@ -1,18 +1,20 @@
 //! What the robot truly does: free, or held by the beam.
 
 use crate::model::configuration::bend_from_theta_l;
-use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Segment, Vec3, Wrench};
+use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Segment, Touched, Vec3, Wrench};
 use crate::scenario::Plan;
 use crate::scenario::motion::command;
 use crate::scenario::plan::PlannedContact;
 
 /// The true shape of the backbone.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Shape {
     /// One circular arc.
     Free(Arc),
-    /// Held by the beam: two arcs.
+    /// Clamped by the beam: two arcs.
     Held(Constrained),
+    /// Touched by the beam: an elastic curve below, an arc above.
+    Touched(Touched),
 }
 
 impl Shape {
@@ -22,13 +24,26 @@ impl Shape {
         match self {
             Self::Free(arc) => arc.pose(s),
             Self::Held(held) => held.pose(s),
+            Self::Touched(touched) => touched.pose(s),
+        }
+    }
+
+    /// The same with everything at hand that several poses need.
+    #[must_use]
+    pub fn detailed(self) -> Self {
+        match self {
+            Self::Touched(touched) => Self::Touched(touched.detailed()),
+            plain => plain,
         }
     }
 
     /// Pose of the end disk, in {B}.
     #[must_use]
     pub fn tip_pose(&self) -> Pose {
-        self.tip_pose_and_jacobian().0
+        match self {
+            Self::Touched(touched) => touched.tip_pose(),
+            plain => plain.tip_pose_and_jacobian().0,
+        }
     }
 
     /// Pose and Jacobian of the end disk, in {B}.
@@ -37,6 +52,7 @@ impl Shape {
         match self {
             Self::Free(arc) => arc.pose_and_jacobian(arc.length),
             Self::Held(held) => held.tip_pose_and_jacobian(),
+            Self::Touched(touched) => touched.tip_pose_and_jacobian(),
         }
     }
 }
@@ -77,6 +93,9 @@ impl<'a> Plant<'a> {
     pub fn shape(&self, configuration: Configuration) -> Shape {
         let length = self.plan.segment().length;
         match self.holding(&configuration) {
+            Some(PlannedContact { touch: Some(branch), .. }) => {
+                Shape::Touched(Touched::new(length, std::sync::Arc::clone(branch), configuration))
+            }
             Some(contact) => Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration)),
             _ => Shape::Free(Arc { length, configuration }),
         }
@@ -127,6 +146,10 @@ pub fn moved_part(
     configuration: Configuration,
 ) -> (Segment, Configuration) {
     match contact {
+        Some(PlannedContact { touch: Some(branch), .. }) if branch.holds_at(configuration.bend()) => {
+            let (bend, place) = branch.above(configuration.bend());
+            (segment.shortened(segment.length * (1.0 - place)), configuration.with_bend(bend))
+        }
         Some(contact) if contact.holds_at(configuration.bend()) => {
             let share = contact.arc_length / segment.length;
             let upper = segment.shortened(segment.length - contact.arc_length);

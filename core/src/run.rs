@@ -329,7 +329,7 @@ impl Run {
     #[must_use]
     pub fn shape(&self, k: usize) -> Shape {
         let free = || Shape::Free(self.plan.segment().arc(self.recording.entries[k].configuration));
-        self.truth(k).map_or_else(free, |truth| truth.shape)
+        self.truth(k).map_or_else(free, |truth| truth.shape.clone().detailed())
     }
 
     /// Threshold crossings, in order.

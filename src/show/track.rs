@@ -49,8 +49,9 @@ pub fn model(run: &Run, sample: &Sample) -> Option<Vec3> {
 /// The constrained model's centrode c_c (m) by the truth at an instant, while a contact holds.
 #[must_use]
 pub fn constrained(run: &Run, truth: Option<&Truth>) -> Option<Vec3> {
-    match truth?.shape {
+    match &truth?.shape {
         Shape::Free(_) => None,
+        Shape::Touched(touched) => visible(run, touched.centrode(Rate::BENDING)?),
         Shape::Held(held) => visible(run, held.centrode(Rate::BENDING)?),
     }
 }

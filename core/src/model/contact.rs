@@ -17,6 +17,7 @@ pub mod branch;
 pub mod cylinder;
 pub mod plane;
 pub mod ritz;
+pub mod touched;
 
 use super::special::Angle;
 use nalgebra::Vector2;

@@ -150,12 +150,34 @@ pub struct Contact {
     pub place: Place,
     /// When, or at which bend (default 5.80 s, illustrative: it gives Table II's detection time for disk 2).
     pub start: Start,
+    /// How it holds the backbone.
+    pub kind: ContactKind,
+    /// Radius of a round beam and of the backbone's round envelope together, m (illustrative). For [`ContactKind::Cylinder`].
+    pub rounding: f64,
 }
 
 impl Default for Contact {
     fn default() -> Self {
-        Self { place: Place::disk(2), start: Start::Time(5.80) }
+        Self { place: Place::disk(2), start: Start::Time(5.80), kind: ContactKind::Clamp, rounding: 0.0035 }
     }
+}
+
+/// How a beam holds the backbone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ContactKind {
+    /// As the paper has it (Eqs. 20–23): position and slope are held, and the part below keeps its shape.
+    #[default]
+    Clamp,
+    /// A flat, frictionless side against a disk: only the position along its normal is held.
+    Plane,
+    /// A round, frictionless beam against the backbone's round envelope, along which the contact slides.
+    Cylinder,
+}
+
+impl ContactKind {
+    /// All of them.
+    pub const ALL: &[Self] = &[Self::Clamp, Self::Plane, Self::Cylinder];
 }
 
 /// Where the beam meets the backbone.
@@ -198,6 +220,10 @@ struct ContactKeys {
     time: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     bend: Option<f64>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    kind: Option<ContactKind>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    rounding: Option<f64>,
 }
 
 impl TryFrom<ContactKeys> for Contact {
@@ -221,7 +247,8 @@ impl TryFrom<ContactKeys> for Contact {
             (None, Some(bend)) => Start::Bend(bend),
             (None, None) => default.start,
         };
-        Ok(Self { place, start })
+        let (kind, rounding) = (keys.kind.unwrap_or(default.kind), keys.rounding.unwrap_or(default.rounding));
+        Ok(Self { place, start, kind, rounding })
     }
 }
 
@@ -236,7 +263,10 @@ impl From<Contact> for ContactKeys {
             Start::Time(time) => (Some(time), None),
             Start::Bend(bend) => (None, Some(bend)),
         };
-        Self { disk, arc_length, time, bend }
+        let default = Contact::default();
+        let kind = (contact.kind != default.kind).then_some(contact.kind);
+        let rounding = (contact.rounding != default.rounding).then_some(contact.rounding);
+        Self { disk, arc_length, time, bend, kind, rounding }
     }
 }
 

@@ -2,11 +2,16 @@
 
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
-use crate::scenario::keys::allowed::bend_refused;
+use crate::model::contact::Meeting;
+use crate::model::contact::branch::{Branch, Surface};
+use crate::scenario::keys::Allowed;
+use crate::scenario::keys::allowed::{Limit, bend_refused};
 use crate::scenario::keys::{KEYS, Quantity, Value};
 use crate::scenario::motion;
 use crate::scenario::refusal::{Refused, ScenarioError};
-use crate::scenario::{Contact, Motion, Place, Scenario, Start, Thresholds};
+use crate::scenario::{Contact, ContactKind, Motion, Place, Scenario, Start, Thresholds};
+use std::num::NonZeroU64;
+use std::sync::Arc;
 
 /// The longest run, in samples.
 pub const MAX_SAMPLES: f64 = 1e8;
@@ -29,7 +34,7 @@ pub const MAX_TIME: f64 = 1e9;
 pub const MAX_SEED: u64 = i64::MAX as u64;
 
 /// A contact, resolved to numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct PlannedContact {
     /// Where the beam meets the backbone, arc length in m.
     pub arc_length: f64,
@@ -37,20 +42,41 @@ pub struct PlannedContact {
     pub bend: f64,
     /// +1 when "beyond" means a larger bend, −1 when it means a smaller one.
     pub side: f64,
+    /// The shapes against a beam that only touches; none for a clamp.
+    pub touch: Option<Arc<Branch>>,
 }
 
 impl PlannedContact {
-    /// A beam at `arc_length` (m) that holds beyond `bend` (rad), whichever way the motion goes through it.
+    /// A beam at `arc_length` (m) that holds beyond `bend` (rad), whichever way the motion goes through it; of the scenario's
+    /// kind.
     #[must_use]
-    pub fn beyond(arc_length: f64, bend: f64, motion: &Motion) -> Self {
-        let toward = if bend.abs() > STRAIGHT { bend } else { motion.theta_start - motion.theta_end };
-        Self { arc_length, bend, side: side(toward) }
+    pub fn beyond(arc_length: f64, bend: f64, scenario: &Scenario) -> Self {
+        Self::new(arc_length, bend, side_beyond(bend, &scenario.motion), scenario)
+    }
+
+    fn new(arc_length: f64, bend: f64, side: f64, scenario: &Scenario) -> Self {
+        let length = scenario.robot.length;
+        let surface = match scenario.contact.kind {
+            ContactKind::Clamp => None,
+            ContactKind::Plane => Some(Surface::Plane),
+            ContactKind::Cylinder => Some(Surface::Cylinder { rounding: scenario.contact.rounding / length }),
+        };
+        let touch = surface.map(|surface| {
+            let motion = &scenario.motion;
+            let ends = [motion.theta_start, motion.theta_end].map(|theta_l| side * bend_from_theta_l(theta_l));
+            let last = side * ends[0].max(ends[1]).max(side * bend);
+            Arc::new(Branch::new(Meeting { place: arc_length / length, bend, side }, surface, last))
+        });
+        Self { arc_length, bend, side, touch }
     }
 
     /// Whether the beam holds the backbone at this commanded bend (rad).
     #[must_use]
     pub fn holds_at(&self, bend: f64) -> bool {
-        self.side * (bend - self.bend) > 0.0
+        match &self.touch {
+            None => self.side * (bend - self.bend) > 0.0,
+            Some(branch) => branch.holds_at(bend),
+        }
     }
 }
 
@@ -87,7 +113,7 @@ impl Plan {
         KEYS.iter().try_for_each(|key| key.check(scenario))?;
         Ok(Self {
             segments: vec![scenario.robot.segment()],
-            contacts: resolve_contact(scenario).into_iter().collect(),
+            contacts: resolve_contact(scenario)?.into_iter().collect(),
             samples: steps(scenario) as usize + 1,
             scenario: scenario.clone(),
         })
@@ -173,22 +199,42 @@ pub(super) fn steps(scenario: &Scenario) -> f64 {
 /// Bends nearer to straight than this are straight when the beam's side is chosen.
 const STRAIGHT: f64 = 1e-12;
 
-fn resolve_contact(scenario: &Scenario) -> Option<PlannedContact> {
-    let arc_length = match scenario.contact.place {
-        Place::Nowhere => return None,
-        Place::Disk(disk) => *scenario.robot.disks.get(disk.get() as usize - 1)?,
-        Place::ArcLength(s) => s,
+fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, ScenarioError> {
+    let Contact { place, start, kind, rounding } = scenario.contact;
+    let disk = |disk: NonZeroU64| scenario.robot.disks.get(disk.get() as usize - 1).copied();
+    let (key, value, at) = match place {
+        Place::Nowhere => return Ok(None),
+        Place::Disk(number) => ("contact.disk", Value::Whole(number.get()), disk(number)),
+        Place::ArcLength(s) => ("contact.arc_length", Value::Number(s), Some(s)),
     };
+    let Some(arc_length) = at else { return Ok(None) };
     let motion = &scenario.motion;
-    Some(match scenario.contact.start {
-        // At that time the contact starts: the beam stands where the motion goes, be it toward straight.
-        Start::Time(time) => PlannedContact {
-            arc_length,
-            bend: bend_from_theta_l(motion::command(motion, time).0),
-            side: side(motion.theta_start - motion.theta_end),
-        },
-        Start::Bend(bend) => PlannedContact::beyond(arc_length, bend, motion),
-    })
+    // From a time on, the beam stands where the motion goes, be it toward straight.
+    let (bend, side) = match start {
+        Start::Time(time) => {
+            (bend_from_theta_l(motion::command(motion, time).0), side(motion.theta_start - motion.theta_end))
+        }
+        Start::Bend(bend) => (bend, side_beyond(bend, motion)),
+    };
+    let length = scenario.robot.length;
+    if kind != ContactKind::Clamp && !(arc_length > 0.0 && arc_length < length) {
+        let quantity = if key == "contact.disk" { Quantity::Count } else { Quantity::Length };
+        let allowed =
+            Allowed::Need("a place between the base and the end disk, for a beam that only touches (contact.kind)");
+        return Err(Refused::error(key, quantity, value, allowed));
+    }
+    // Where the beam is on the inside of the bend, it has to fit into the arc.
+    let inside = side * bend;
+    if kind == ContactKind::Cylinder && inside * rounding >= length {
+        let allowed = Allowed::Range(Limit::At(0.0), Limit::Beyond(length / inside));
+        return Err(Refused::error("contact.rounding", Quantity::Length, Value::Number(rounding), allowed));
+    }
+    Ok(Some(PlannedContact::new(arc_length, bend, side, scenario)))
+}
+
+/// The side on which a bend (rad) lies: away from straight, or where the motion goes.
+fn side_beyond(bend: f64, motion: &Motion) -> f64 {
+    side(if bend.abs() > STRAIGHT { bend } else { motion.theta_start - motion.theta_end })
 }
 
 fn side(toward: f64) -> f64 {

@@ -106,7 +106,7 @@ impl Job for MapJob {
     fn step(&mut self) {
         let Some(&arc_length) = self.map.arc_lengths.get(self.row) else { return };
         for column in 0..self.map.bends.len() {
-            let contact = PlannedContact::beyond(arc_length, self.map.bends[column], &self.plan.scenario().motion);
+            let contact = PlannedContact::beyond(arc_length, self.map.bends[column], self.plan.scenario());
             let cell = self.map.cell(self.row, column);
             self.map.deviation[cell] = self.course.largest_deviation(&contact);
             self.map.epsilon[cell] = largest_epsilon(&self.plan, &contact);
@@ -138,9 +138,12 @@ pub fn largest_epsilon(plan: &Plan, contact: &PlannedContact) -> f64 {
     // to where the part above the beam would leave a backbone no length.
     let (armed, last) = (bend_at(scenario.detection.armed_from), bend_at(motion.end));
     let segment = plan.segment();
-    let lower = contact.bend * (contact.arc_length / segment.length);
-    let sharpest = (segment.length - contact.arc_length) / segment.pitch_radius * NEARLY;
-    let (mut low, mut high) = ((lower - sharpest).max(armed.min(last)), (lower + sharpest).min(armed.max(last)));
+    let (mut low, mut high) = (armed.min(last), armed.max(last));
+    if contact.touch.is_none() {
+        let lower = contact.bend * (contact.arc_length / segment.length);
+        let sharpest = (segment.length - contact.arc_length) / segment.pitch_radius * NEARLY;
+        (low, high) = ((lower - sharpest).max(low), (lower + sharpest).min(high));
+    }
     if contact.side > 0.0 {
         low = low.max(contact.bend)
     } else {

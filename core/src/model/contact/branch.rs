@@ -33,21 +33,20 @@ pub enum Ending {
     Opens,
 }
 
-/// The tip and what acts there, at one bend.
+/// The end disk in the bending plane, at one bend.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tip {
     /// Position, in units of L.
     pub position: Planar,
     /// Its derivative by φ.
     pub by_bend: Planar,
-    /// Bend of the part above the contact, rad.
-    pub upper_bend: f64,
-    /// Arc length of the contact, in units of L.
-    pub place: f64,
 }
 
-/// What a piece interpolates: tip, its derivative, slope at the contact, place.
-const VALUES: usize = 6;
+impl Tip {
+    const UNDEFINED: Self =
+        Self { position: Planar::new(f64::NAN, f64::NAN), by_bend: Planar::new(f64::NAN, f64::NAN) };
+}
+
 /// Chebyshev points of a piece.
 const POINTS: usize = 24;
 /// A piece is good when its last coefficients are below this: they tell what is left out.
@@ -55,13 +54,13 @@ const ROUNDING: f64 = 2e-14;
 /// No piece is split below this width, rad: near a snap the shape goes like a root.
 const NARROW: f64 = 1e-4;
 /// Steps along the branch, rad: the longest, and where the search for an end stops.
-const STRIDE: f64 = 0.04;
+const STRIDE: f64 = 0.1;
 const FINE: f64 = 1e-10;
 /// A shape further from where the last one led, rad per coefficient, is on another branch.
 const LEAP: f64 = 0.2;
 
 /// The shapes of one contact over the bends at which it holds.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Branch {
     basis: Basis,
     meeting: Meeting,
@@ -72,11 +71,14 @@ pub struct Branch {
     ending: Option<(f64, Ending)>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Piece {
     middle: f64,
     half: f64,
-    series: [[f64; POINTS]; VALUES],
+    /// Position of the tip, and its derivative.
+    tip: [[f64; POINTS]; 4],
+    /// Slope at the contact, and its place.
+    contact: [[f64; POINTS]; 2],
 }
 
 impl Branch {
@@ -127,15 +129,25 @@ impl Branch {
     /// The tip at a bend at which the contact holds; at another, that of the nearest such bend.
     #[must_use]
     pub fn tip(&self, bend: f64) -> Tip {
+        let Some((piece, x)) = self.piece(bend) else { return Tip::UNDEFINED };
+        let [px, pz, vx, vz] = clenshaw(&piece.tip, x);
+        Tip { position: Planar::new(px, pz), by_bend: Planar::new(vx, vz) }
+    }
+
+    /// Bend of the part above the contact (rad), and arc length of the contact (in units of L), at a bend at which it holds.
+    #[must_use]
+    pub fn above(&self, bend: f64) -> (f64, f64) {
+        let Some((piece, x)) = self.piece(bend) else { return (f64::NAN, f64::NAN) };
+        let [slope, place] = clenshaw(&piece.contact, x);
+        (bend - slope, place)
+    }
+
+    /// The piece in which a bend lies, and where in it.
+    fn piece(&self, bend: f64) -> Option<(&Piece, f64)> {
         let side = self.meeting.side;
         let at = self.pieces.partition_point(|piece| side * (bend - piece.middle) > piece.half);
-        let Some(piece) = self.pieces.get(at).or(self.pieces.last()) else {
-            return self.exactly(bend).map_or(NOWHERE, |touching| self.tip_of(&touching));
-        };
-        let x = ((bend - piece.middle) / piece.half).clamp(-1.0, 1.0);
-        let [px, pz, vx, vz, slope, place] = clenshaw(&piece.series, x);
-        let position = Planar::new(px, pz);
-        Tip { position, by_bend: Planar::new(vx, vz), upper_bend: bend - slope, place }
+        let piece = self.pieces.get(at).or(self.pieces.last())?;
+        Some((piece, ((bend - piece.middle) / piece.half).clamp(-1.0, 1.0)))
     }
 
     /// The shape at a bend at which the contact holds; `None` elsewhere.
@@ -219,16 +231,20 @@ impl Branch {
         let sample = |k: usize| {
             let x = cos(PI * (k as f64 + 0.5) / POINTS as f64);
             let touching = self.exactly(middle + half * x)?;
-            let Tip { position, by_bend, .. } = self.tip_of(&touching);
-            Some([position.x, position.y, by_bend.x, by_bend.y, touching.slope(), touching.at.place])
+            let (position, by_bend) = touching.tip(&self.basis);
+            Some(([position.x, position.y, by_bend.x, by_bend.y], [touching.slope(), touching.at.place]))
         };
         let samples: Option<Vec<_>> = (0..POINTS).map(sample).collect();
-        let series = samples.map(|samples| coefficients(&samples));
-        let good = |series: &[[f64; POINTS]; VALUES]| {
-            series.iter().all(|row| row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING))
+        let piece = samples.map(|samples| {
+            let (tips, contacts): (Vec<_>, Vec<_>) = samples.into_iter().unzip();
+            Piece { middle, half, tip: coefficients(&tips), contact: coefficients(&contacts) }
+        });
+        let good = |piece: &Piece| {
+            let mut series = piece.tip.iter().chain(&piece.contact);
+            series.all(|row| row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING))
         };
-        match series {
-            Some(series) if good(&series) || half < NARROW => self.pieces.push(Piece { middle, half, series }),
+        match piece {
+            Some(piece) if good(&piece) || half < NARROW => self.pieces.push(piece),
             _ if half < NARROW => {}
             _ => {
                 self.fit(from, middle);
@@ -236,19 +252,7 @@ impl Branch {
             }
         }
     }
-
-    fn tip_of(&self, touching: &Touching) -> Tip {
-        let (position, by_bend) = touching.tip(&self.basis);
-        Tip { position, by_bend, upper_bend: touching.upper_bend(), place: touching.at.place }
-    }
 }
-
-const NOWHERE: Tip = Tip {
-    position: Planar::new(f64::NAN, f64::NAN),
-    by_bend: Planar::new(f64::NAN, f64::NAN),
-    upper_bend: f64::NAN,
-    place: f64::NAN,
-};
 
 /// Where a shape leads at another bend, to first order.
 fn led(near: &Touching, bend: f64) -> Unknowns {
@@ -261,7 +265,7 @@ fn led(near: &Touching, bend: f64) -> Unknowns {
 }
 
 /// Chebyshev coefficients of values at the points cos(π(k + ½)/n); the first is halved.
-fn coefficients(samples: &[[f64; VALUES]]) -> [[f64; POINTS]; VALUES] {
+fn coefficients<const N: usize>(samples: &[[f64; N]]) -> [[f64; POINTS]; N] {
     let n = POINTS as f64;
     let term = |value: usize, j: usize| {
         let sum: f64 = (0..POINTS).map(|k| samples[k][value] * cos(PI * j as f64 * (k as f64 + 0.5) / n)).sum();
@@ -271,10 +275,10 @@ fn coefficients(samples: &[[f64; VALUES]]) -> [[f64; POINTS]; VALUES] {
 }
 
 /// The sums of several Chebyshev series at x in [−1, 1].
-fn clenshaw(series: &[[f64; POINTS]; VALUES], x: f64) -> [f64; VALUES] {
-    let (mut a, mut b) = ([0.0; VALUES], [0.0; VALUES]);
+fn clenshaw<const N: usize>(series: &[[f64; POINTS]; N], x: f64) -> [f64; N] {
+    let (mut a, mut b) = ([0.0; N], [0.0; N]);
     for j in (1..POINTS).rev() {
-        for v in 0..VALUES {
+        for v in 0..N {
             (a[v], b[v]) = (series[v][j] + 2.0 * x * a[v] - b[v], a[v]);
         }
     }

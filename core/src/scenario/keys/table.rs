@@ -6,7 +6,7 @@ use crate::scenario::keys::quantity::Quantity::{
 };
 use crate::scenario::keys::{Access, Allowed, Key, Usual};
 use crate::scenario::plan::{LENGTHS, MAX_FORCE, MAX_MOMENT, MAX_SEED, MAX_TIME, MAX_TURN, RADII};
-use crate::scenario::{Averaging, CellErrors, Mounting, Place, Scenario, Start, Xi1Rule};
+use crate::scenario::{Averaging, CellErrors, ContactKind, Mounting, Place, Scenario, Start, Xi1Rule};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Keys that belong together.
@@ -43,6 +43,15 @@ macro_rules! threshold {
 }
 macro_rules! vector {
     ($($path:ident).+) => { Access::Vector(|s| &s.$($path).+, |s, value| s.$($path).+ = value) };
+}
+/// One of some words.
+macro_rules! one_of {
+    ($($path:ident).+, $all:expr) => {
+        Access::Word(
+            |s| $all.iter().position(|one| *one == s.$($path).+).unwrap_or_default(),
+            |s, i| s.$($path).+ = $all.get(i).copied().unwrap_or_default(),
+        )
+    };
 }
 /// One of two words.
 macro_rules! either {
@@ -288,6 +297,23 @@ pub const KEYS: &[Key] = &[
         "Bend at which the backbone reaches the beam; 0 means straight.",
     )
     .instead_of("contact.time", 0.98),
+    key(
+        "contact.kind",
+        Word,
+        Allowed::Words(&["clamp", "plane", "cylinder"]),
+        one_of!(contact.kind, ContactKind::ALL),
+        "How the beam holds the backbone: clamp holds position and slope, as in the paper; plane is a flat side against a disk, \
+         cylinder a round beam along which the backbone slides, both without friction.",
+    ),
+    key(
+        "contact.rounding",
+        Length,
+        at_most_key("robot.length"),
+        number!(contact.rounding),
+        "Radius of a round beam and of the backbone's envelope together; used by the cylinder.",
+    )
+    .usual_range(0.0, 0.01)
+    .illustrative(),
     key(
         "tracker.rate",
         Frequency,

@@ -63,21 +63,22 @@ impl Centrodes {
                 "backbone without constraint",
                 Role::Robot,
                 Style::Line,
-                self.backbone(&configuration, &free.shape),
+                self.backbone(&configuration, free.shape),
             ));
             if held.held.is_some() {
                 series.push(Series::new(
                     "backbone with constraint",
                     Role::Constrained,
                     Style::Dashed,
-                    self.backbone(&configuration, &held.shape),
+                    self.backbone(&configuration, held.shape),
                 ));
             }
         }
         series
     }
 
-    fn backbone(&self, configuration: &Configuration, shape: &Shape) -> Vec<[f64; 2]> {
+    fn backbone(&self, configuration: &Configuration, shape: Shape) -> Vec<[f64; 2]> {
+        let shape = shape.detailed();
         let length = self.plan.segment().length;
         let at = |k| in_plane(configuration, &shape.pose(length * (k as f64 / (POINTS - 1) as f64)).position);
         (0..POINTS).map(at).collect()

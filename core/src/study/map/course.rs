@@ -169,6 +169,10 @@ impl Course {
             if !contact.holds_at(bend) {
                 return arc_end(self.length, bend);
             }
+            if let Some(branch) = &contact.touch {
+                let at = branch.tip(bend).position * self.length;
+                return Point { x: at.x, z: at.y };
+            }
             let upper = arc_end(upper_length, bend - lower_bend);
             Point {
                 x: lower.x + turn.cosine() * upper.x + turn.sine() * upper.z,
