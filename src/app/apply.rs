@@ -41,7 +41,7 @@ impl App {
                     }
                 }
                 Command::Touch { arc_length, bend } => self.change(&["contact.disk", "contact.time"], |s| {
-                    s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend) };
+                    s.contact = Contact { place: Place::ArcLength(arc_length), start: Start::Bend(bend), ..s.contact };
                     Ok(())
                 }),
                 Command::Tune(tuning) => self.state.tuning = tuning,

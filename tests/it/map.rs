@@ -136,7 +136,7 @@ fn the_map_is_made_of_its_cells_and_may_be_looked_at_before_it_is_done() {
     let map = job.map();
     for (row, &arc_length) in map.arc_lengths.iter().enumerate() {
         for (column, &bend) in map.bends.iter().enumerate() {
-            let contact = centrode_core::scenario::plan::PlannedContact::beyond(arc_length, bend, &scenario.motion);
+            let contact = centrode_core::scenario::plan::PlannedContact::beyond(arc_length, bend, &scenario);
             let cell = map.cell(row, column);
             assert_eq!(map.nearest(arc_length, bend), Some((column, row)));
             assert_eq!(map.deviation[cell].to_bits(), largest_deviation(&plan, &contact).to_bits());

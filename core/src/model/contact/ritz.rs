@@ -114,10 +114,12 @@ mod tests {
     #[test]
     fn gauss_integrates_what_it_should_exactly() {
         let basis = Basis::new();
-        for power in 0..2 * NODES as i32 {
-            let sum: f64 = basis.nodes.iter().zip(&basis.weights).map(|(x, w)| w * x.powi(power)).sum();
+        let mut powers = [1.0; NODES];
+        for power in 0..2 * NODES as u32 {
+            let sum: f64 = powers.iter().zip(&basis.weights).map(|(x, w)| w * x).sum();
             let exact = if power % 2 == 0 { 1.0 / f64::from(power + 1) } else { 0.0 };
             assert!((sum - exact).abs() < 1e-15, "power {power}: {sum} {exact}");
+            powers.iter_mut().zip(&basis.nodes).for_each(|(x, node)| *x *= node);
         }
     }
 

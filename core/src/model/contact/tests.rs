@@ -3,6 +3,7 @@
 use super::branch::{Branch, Ending, Surface};
 use super::ritz::Basis;
 use super::*;
+use libm::{cos, sin};
 use nalgebra::{Matrix4, Vector4};
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -104,6 +105,11 @@ fn a_cylinder_of_no_radius_that_touches_where_it_did_is_a_plane_of_small_bends()
     }
 }
 
+/// n at a slope (rad).
+fn normal(slope: f64) -> Planar {
+    Planar::new(cos(slope), -sin(slope))
+}
+
 fn along(meeting: &Meeting, surface: Surface, last: f64) -> (Branch, Vec<Touching>) {
     let branch = Branch::new(*meeting, surface, last);
     let end = branch.ending().map_or(last, |(bend, _)| bend);
@@ -150,11 +156,10 @@ fn bend_and_what_is_held_are_kept_and_the_force_pushes() {
             let (point, slope) = shape.point(basis, shape.at.place);
             match surface {
                 Surface::Plane => {
-                    let (sin, cos) = meeting.slope().sin_cos();
                     // Only the position along the normal is held.
-                    Planar::new(point.x * cos - point.y * sin, 0.0)
+                    Planar::new(point.dot(&normal(meeting.slope())), 0.0)
                 }
-                Surface::Cylinder { rounding } => point + Planar::new(slope.cos(), -slope.sin()) * rounding,
+                Surface::Cylinder { rounding } => point + normal(slope) * rounding,
             }
         };
         let mut force = 0.0;
@@ -235,7 +240,7 @@ fn near_first_contact_the_slope_turns_at_its_known_share() {
 fn shot(curvature: f64, force: f64, slope: f64, place: f64) -> [f64; 4] {
     let steps = 2000;
     let h = place / f64::from(steps);
-    let rate = |y: [f64; 4]| [y[1], force * (y[0] - slope).cos(), y[0].sin(), y[0].cos()];
+    let rate = |y: [f64; 4]| [y[1], force * cos(y[0] - slope), sin(y[0]), cos(y[0])];
     let ahead = |y: [f64; 4], k: [f64; 4], h: f64| std::array::from_fn(|i| y[i] + h * k[i]);
     (0..steps).fold([0.0, curvature, 0.0, 0.0], |y, _| {
         let a = rate(y);
@@ -265,7 +270,6 @@ fn shooting_finds_the_same_shapes() {
     for (meeting, surface) in all() {
         let (branch, shapes) = along(&meeting, surface, 2.0);
         let first = branch.shape(meeting.bend).expect("first contact").point(branch.basis(), meeting.place).0;
-        let toward = |slope: f64| Planar::new(slope.cos(), -slope.sin());
         // Nearer to the end of the backbone shooting loses its digits.
         let apart = [&shapes[9], &shapes[24], &shapes[39]].into_iter().filter(|shape| shape.at.place < 0.98);
         for shape in apart {
@@ -278,10 +282,10 @@ fn shooting_finds_the_same_shapes() {
                 match surface {
                     Surface::Plane => {
                         let known = meeting.slope();
-                        Vector4::new(moment, moved.dot(&toward(known)), place - meeting.place, slope - known)
+                        Vector4::new(moment, moved.dot(&normal(known)), place - meeting.place, slope - known)
                     }
                     Surface::Cylinder { rounding } => {
-                        let moved = moved + (toward(slope) - toward(meeting.slope())) * rounding;
+                        let moved = moved + (normal(slope) - normal(meeting.slope())) * rounding;
                         Vector4::new(moment, moved.x, moved.y, angle - slope)
                     }
                 }
