@@ -53,7 +53,7 @@ pub fn map(
     let painter = ui.painter().clone();
     let places = picture.show(&painter, &theme, space, paint::page(TEXT));
     let contact: Vec<_> = target(plan).into_iter().collect();
-    for (k, (kind, place)) in Kind::ALL.into_iter().zip(&places).enumerate() {
+    for (k, (&kind, place)) in Kind::ALL.iter().zip(&places).enumerate() {
         picture.over(&painter, &theme, (k, place), &contact);
         touch(ui, place, kind, shown, out, &theme);
     }
