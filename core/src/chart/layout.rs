@@ -240,11 +240,16 @@ fn words(drawing: &mut Drawing, chart: &Chart, page: &Page, whole: Rect) -> Rect
     Rect { left, right, top: whole.top + 4.2 * t, bottom: foot - 0.9 * t }
 }
 
-/// Places of panels: side by side where there is the width, else above each other.
+/// Places of panels: side by side where there is the width, else above each other; four of them two by two where there is the width.
 #[must_use]
 pub fn places(space: Rect, count: usize, t: f64) -> Vec<Rect> {
     let of = count.max(1) as f64;
     let beside = space.width() > 1.15 * space.height();
+    if beside && count == 4 {
+        let middle = 0.5 * (space.top + space.bottom);
+        let rows = [Rect { bottom: middle - 0.6 * t, ..space }, Rect { top: middle + 0.6 * t, ..space }];
+        return rows.into_iter().flat_map(|row| places(row, 2, t)).collect();
+    }
     let gap = if beside { 2.4 * t } else { 1.2 * t };
     let part = (if beside { space.width() } else { space.height() } - gap * (of - 1.0)) / of;
     let place = |k: usize| {
