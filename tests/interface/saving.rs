@@ -132,7 +132,7 @@ fn the_tuning_view_is_saved_with_its_four_pictures() {
 fn what_is_not_computed_yet_is_not_saved() {
     let mut page = page_of(DESK);
     page.get_by_role_and_label(Role::Tab, "Map").click();
-    page.step();
+    page.run_steps(2);
     page.get_by_role_and_label(Role::Button, "Save map").click();
     page.step();
     page.step();
@@ -181,4 +181,68 @@ fn on_a_phone_the_same_key_shows_the_plots() {
     page.get_by_role_and_label(Role::MenuItem, "CSV").click();
     page.run_steps(2);
     assert_eq!(file(the_file(&mut page)).0, "run-bench.csv");
+}
+
+/// What the last frames copied.
+fn copied(page: &Page) -> Option<String> {
+    page.output().platform_output.commands.iter().find_map(|command| match command {
+        egui::OutputCommand::CopyText(text) => Some(text.clone()),
+        _ => None,
+    })
+}
+
+#[test]
+fn two_marked_times_are_compared_copied_and_saved() {
+    let mut page = page_of(DESK);
+    for (key, time) in [(Key::A, 5.5), (Key::B, 6.5)] {
+        slide(&mut page, "Time", time);
+        page.key_press(key);
+        page.run_steps(2);
+    }
+    assert_eq!(app(&page).state().marks, [Some(5.5), Some(6.5)]);
+    page.key_press(Key::C);
+    page.step();
+    let text = copied(&page).expect("copied");
+    assert!(text.starts_with("\tA\tB\tB − A\nt (s)\t5.500\t6.500\t1.000\n‖cm − cs‖ (mm)\t"), "{text}");
+    let (name, _, numbers) = file(saved(&mut page, "Save plots", "CSV, A to B"));
+    assert_eq!(name, "run-a-to-b-bench.csv");
+    let rows: Vec<&str> = numbers.lines().collect();
+    assert!(rows[1].starts_with("5.5,") && rows.last().is_some_and(|row| row.starts_with("6.5,")));
+    assert_eq!(rows.len(), 1 + 1001);
+    page.key_press(Key::Delete);
+    page.run_steps(2);
+    assert_eq!(app(&page).state().marks, [None; 2]);
+    page.get_by_role_and_label(Role::Button, "Save plots").click();
+    page.run_steps(2);
+    assert!(page.query_by_label("CSV, A to B").is_none() && page.query_by_label("Copy A and B").is_none());
+}
+
+#[test]
+fn shift_and_drag_on_a_plot_marks_both_times_and_a_click_removes_them() {
+    let mut page = page_of(DESK);
+    let time = app(&page).state().time;
+    let plot = page.get_by_label("Plot of the tangent angle over time").rect();
+    let shift = |page: &mut Page, down: bool| {
+        page.event(egui::Event::ModifiersChanged(if down { Modifiers::SHIFT } else { Modifiers::NONE }));
+    };
+    let press = |page: &mut Page, x: f32, pressed: bool| {
+        let pos = egui::pos2(plot.left() + x * plot.width(), plot.center().y);
+        page.event(egui::Event::PointerMoved(pos));
+        page.event(egui::Event::PointerButton {
+            pos,
+            button: egui::PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::SHIFT,
+        });
+        page.run_steps(2);
+    };
+    shift(&mut page, true);
+    press(&mut page, 0.25, true);
+    press(&mut page, 0.75, false);
+    let [Some(a), Some(b)] = app(&page).state().marks else { panic!("{:?}", app(&page).state().marks) };
+    assert!((a - 2.5).abs() < 0.05 && (b - 7.5).abs() < 0.05, "{a} {b}");
+    assert_eq!(app(&page).state().time, time, "it does not scrub");
+    press(&mut page, 0.5, true);
+    press(&mut page, 0.5, false);
+    assert_eq!(app(&page).state().marks, [None; 2]);
 }

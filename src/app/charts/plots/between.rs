@@ -20,17 +20,19 @@ impl View<'_> {
             self.state.measured = Some((self.which, x));
         }
         let Some((_, from)) = self.state.measured.filter(|(which, _)| *which == self.which) else { return false };
-        if let Some((x, time)) = at.filter(|_| down) {
-            if (x - from).abs() > CLICK {
+        match at.filter(|(x, _)| (x - from).abs() > CLICK) {
+            Some((_, time)) => {
                 self.out.push(Command::Mark(Mark::A, Some(self.frame.time.value(from))));
                 self.out.push(Command::Mark(Mark::B, Some(time)));
             }
-            return true;
+            None if response.clicked() => {
+                [Mark::A, Mark::B].into_iter().for_each(|mark| self.out.push(Command::Mark(mark, None)));
+            }
+            None => {}
         }
-        if response.clicked() {
-            [Mark::A, Mark::B].into_iter().for_each(|mark| self.out.push(Command::Mark(mark, None)));
+        if !down {
+            self.state.measured = None;
         }
-        self.state.measured = None;
         true
     }
 
