@@ -36,12 +36,16 @@ impl View<'_> {
         true
     }
 
-    /// Paints both marks, and what lies between them.
+    /// Where a mark stands, points.
+    fn mark_at(&self, painter: &Painter, time: f64) -> f32 {
+        let [start, end] = self.frame.time.range();
+        painter.round_to_pixel_center(self.frame.time.at(time.clamp(start, end)))
+    }
+
+    /// Paints both marks, and a band between them.
     pub fn between(&self, painter: &Painter) {
-        let Frame { data, theme, time, .. } = &self.frame;
-        let [start, end] = time.range();
-        let place = |at: f64| painter.round_to_pixel_center(time.at(at.clamp(start, end)));
-        let marks = self.marks;
+        let Frame { data, theme, .. } = &self.frame;
+        let (marks, place) = (self.marks, |time| self.mark_at(painter, time));
         if let [Some(a), Some(b)] = marks {
             let band = data.with_min_x(place(a.min(b))).with_max_x(place(a.max(b)));
             painter.rect_filled(band, 0.0, theme.accent.gamma_multiply(0.10));
@@ -55,7 +59,12 @@ impl View<'_> {
             let font = FontId::proportional(SMALL + 1.0);
             painter.text(pos2(x + dx, data.bottom() - 8.0), align, name, font, theme.accent);
         }
-        let [Some(a), Some(b)] = marks else { return };
+    }
+
+    /// Says by how much the plot's value changes between both marks.
+    pub fn change(&self, painter: &Painter) {
+        let (data, theme) = (self.frame.data, &self.frame.theme);
+        let [Some(a), Some(b)] = self.marks else { return };
         let readings = between(self.run, [a, b]);
         let Some(reading) = readings.get(self.which) else { return };
         let mut lines = vec![job(&format!("Δ {}", reading.told()), SMALL + 1.0, theme.ink)];
@@ -63,6 +72,6 @@ impl View<'_> {
             let [a, b] = [a, b].map(|at| self.run.sample_at(at).time);
             lines.insert(0, job(&format!("Δt {:.3} s", b - a), SMALL + 1.0, theme.ink));
         }
-        note(painter, theme, pos2(place(a.max(b)), data.bottom() - 22.0), *data, lines);
+        note(painter, theme, pos2(self.mark_at(painter, a.max(b)), data.bottom() - 22.0), data, lines);
     }
 }

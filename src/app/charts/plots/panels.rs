@@ -82,6 +82,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     view.hold(method, outcome.moving);
     view.out.extend(outcome.changed.map(|to| change(method, to)));
     view.over(&painter, &events(run, method));
+    view.change(&painter);
     if !view.event(ui, &painter, method) {
         view.hover(&painter, |sample| {
             let line = |curve: &Curve| {
@@ -104,5 +105,6 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     view.frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
     view.between(&painter);
     view.cursor(&painter, &[(value(&now), theme.robot)]);
+    view.change(&painter);
     view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
 }
