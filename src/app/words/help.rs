@@ -55,12 +55,12 @@ pub const KEYS: &[(&str, &str)] = &[
     ("← →", "step by 0.01 s"),
     ("Shift ← →", "step by 0.1 s"),
     ("Home, End", "go to the start or the end"),
-    ("A, B", "mark the time shown: the plots show by how much values change from A to B"),
-    ("Shift drag", "on a plot: mark A and B"),
-    ("C", "copy A, B and the changes as text"),
+    ("A, B", "mark the time shown"),
+    ("Shift drag", "mark A and B on a plot"),
+    ("C", "copy what changes from A to B"),
     ("Delete", "remove A and B"),
-    ("S", "save what is on the stage as a file"),
-    ("Shift S", "save the plots or the run as a file"),
+    ("S", "save what is on the stage"),
+    ("Shift S", "save the plots or the run"),
     ("Esc", "discard what is typed, or close this"),
 ];
 
