@@ -15,6 +15,7 @@ pub mod layout;
 pub mod link;
 pub mod memo;
 pub mod panels;
+pub mod saving;
 pub mod stages;
 pub mod state;
 pub mod theme;
@@ -156,7 +157,8 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
-            keys::read(ui, self.end(), self.state.help || self.sharing.notice.is_some(), &mut out);
+            let covered = self.state.help || self.sharing.notice.is_some();
+            keys::read(ui, self.end(), self.state.stage, covered, &mut out);
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
         }
@@ -169,6 +171,7 @@ impl App {
             ui.ctx().request_discard("the scenario has changed");
         }
         self.tell(ui);
+        self.take_picture(ui.ctx());
         if self.state.playing {
             ui.ctx().request_repaint();
         }
@@ -232,6 +235,7 @@ impl App {
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
+        self.plots.marks = self.state.marks;
         let Self {
             state,
             base,
@@ -260,7 +264,7 @@ impl App {
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
         if robot {
-            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view));
+            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view, out));
             layout::round(ui, layout.view);
             chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
         } else {

@@ -3,6 +3,7 @@
 pub mod ink;
 mod load;
 mod loci;
+pub mod paper;
 mod robot;
 pub mod track;
 

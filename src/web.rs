@@ -52,9 +52,15 @@ extern "C" {
     /// The address has this fragment from now on; whether one can go back to what was before.
     #[wasm_bindgen(method)]
     fn address(this: &Hooks, fragment: &str, step: bool);
-    /// A file is to be saved.
+    /// A file of a kind (as MIME has it) is to be saved.
     #[wasm_bindgen(method)]
-    fn save(this: &Hooks, name: &str, text: &str);
+    fn save(this: &Hooks, name: &str, kind: &str, bytes: &[u8]);
+    /// An SVG is to be saved as PNG, `scale` pixels to a point, with both weights of the page's font; see [`outside::save_failed`].
+    #[wasm_bindgen(method)]
+    fn picture(this: &Hooks, name: &str, svg: &str, scale: u32, regular: &[u8], strong: &[u8]);
+    /// A picture is to be saved as PNG: rows from the top, red, green, blue and alpha of each pixel.
+    #[wasm_bindgen(method)]
+    fn pixels(this: &Hooks, name: &str, width: u32, height: u32, rgba: &[u8]);
     /// The person is to choose a file, see [`outside::file_opened`].
     #[wasm_bindgen(method)]
     fn choose(this: &Hooks);

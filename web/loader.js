@@ -1,7 +1,7 @@
 // Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
 import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
-import { acceptDrops, choose, save } from "./files.js";
+import { acceptDrops, choose, picture, pixels, save } from "./files.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { readQuery } from "./query.js";
@@ -42,6 +42,8 @@ const hooks = {
   save,
   // Set once the program is there.
   choose: () => {},
+  picture: () => {},
+  pixels: () => {},
   study: () => {},
 };
 
@@ -92,6 +94,8 @@ async function main() {
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
   hooks.choose = () => choose(core);
+  hooks.picture = (...drawing) => picture(core, ...drawing);
+  hooks.pixels = (...image) => pixels(core, ...image);
   acceptDrops(core);
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;

@@ -1,8 +1,9 @@
 //! Carrying out commands: the only place where state changes, besides the passing of time.
 
 use super::App;
-use crate::app::command::Command;
+use crate::app::command::{Command, Mark};
 use crate::app::controls::control::Control;
+use crate::app::panels::save;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::words::refusal;
 use crate::app::{controls, memo, state};
@@ -88,10 +89,19 @@ impl App {
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
                 Command::Share(what) => self.share(ctx, what),
+                Command::Mark(mark, time) => self.mark(mark, time),
+                Command::MarkHere(mark) => self.mark(mark, Some(self.cursor())),
+                Command::CopyMarks => self.copy_marks(ctx),
+                Command::Save(subject, format) => self.save(subject, format),
+                Command::OfferToSave(subject) => save::offer(ctx, subject),
                 Command::CloseNotice => self.sharing.notice = None,
                 Command::CopyNotice => self.copy_notice(ctx),
             }
         }
+    }
+
+    fn mark(&mut self, mark: Mark, time: Option<f64>) {
+        self.state.marks[mark as usize] = time.filter(|time| time.is_finite()).map(|time| time.clamp(0.0, self.end()));
     }
 
     /// Takes what a study has shown.

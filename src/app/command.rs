@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::saving::{Format, Subject};
 use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
 use centrode_core::scenario::Threshold;
@@ -18,6 +19,15 @@ pub enum Share {
     Save,
     /// Choose a file with a scenario, and open it.
     Open,
+}
+
+/// One of two times that are held against each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// The first.
+    A,
+    /// The second.
+    B,
 }
 
 /// One wish.
@@ -91,6 +101,16 @@ pub enum Command {
     ToggleHelp,
     /// Hand something out, or ask for something to come in.
     Share(Share),
+    /// Put a mark at a time, s, or take it away.
+    Mark(Mark, Option<f64>),
+    /// Put a mark where the cursor is.
+    MarkHere(Mark),
+    /// Copy both marked times and what the plots show there.
+    CopyMarks,
+    /// Save something as a file.
+    Save(Subject, Format),
+    /// Open the menu by which something is saved.
+    OfferToSave(Subject),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

@@ -14,6 +14,7 @@ use crate::app::panels::notice::Notice;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::state::{self, State, Tuning};
 use crate::app::words::{self, refusal};
+use crate::render::Pixels;
 use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{Scenario, ScenarioError};
@@ -38,8 +39,26 @@ pub enum Effect {
     Save {
         /// Its name.
         name: String,
+        /// What kind of file it is, as browsers call it.
+        kind: &'static str,
         /// What it holds.
-        text: String,
+        bytes: Vec<u8>,
+    },
+    /// A drawing is to be saved as pixels.
+    Picture {
+        /// Name of the file.
+        name: String,
+        /// The drawing, which names the page's font.
+        svg: String,
+        /// Pixels to a point.
+        scale: u32,
+    },
+    /// A picture is to be saved as PNG.
+    Pixels {
+        /// Name of the file.
+        name: String,
+        /// The picture.
+        pixels: Pixels,
     },
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
@@ -90,8 +109,13 @@ impl Sharing {
         self.said.as_ref().map(|(text, _)| text.as_str())
     }
 
-    fn say(&mut self, text: impl Into<String>) {
+    pub(super) fn say(&mut self, text: impl Into<String>) {
         self.said = Some((text.into(), None));
+    }
+
+    /// Asks something of the surroundings.
+    pub(super) fn hand_out(&mut self, effect: Effect) {
+        self.effects.push(effect);
     }
 
     fn address(&mut self, fragment: String, step: bool) {
@@ -262,7 +286,7 @@ impl App {
             Share::Save => {
                 let name = format!("centrode-{}.toml", self.state.preset);
                 let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
-                self.sharing.effects.push(Effect::Save { name, text });
+                self.sharing.effects.push(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
             Share::Open => self.sharing.effects.push(Effect::Choose),
         }

@@ -3,6 +3,7 @@
 pub mod chip;
 pub mod notice;
 pub mod readout;
+pub mod save;
 pub mod share;
 pub mod tabs;
 pub mod title;

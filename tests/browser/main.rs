@@ -28,5 +28,6 @@ mod failures;
 mod harness;
 mod links;
 mod paper;
+mod saving;
 mod start;
 mod tuning;

@@ -252,13 +252,15 @@ fn a_scenario_is_saved_and_opened_again() {
     pick(&mut page, "Save scenario");
     page.step();
     let saved = handle(&mut page).take_effects();
-    let [Effect::Save { name, text }] = &saved[..] else { panic!("{saved:?}") };
-    assert_eq!((name.as_str(), Scenario::from_toml(text)), ("centrode-bench.toml", Ok(set.clone())));
+    let [Effect::Save { name, kind, bytes }] = &saved[..] else { panic!("{saved:?}") };
+    let text = std::str::from_utf8(bytes).expect("text");
+    assert_eq!((name.as_str(), *kind), ("centrode-bench.toml", "application/toml"));
+    assert_eq!(Scenario::from_toml(text), Ok(set.clone()));
     pick(&mut page, "Open scenario");
     page.step();
     assert_eq!(handle(&mut page).take_effects(), [Effect::Choose]);
     let mut other = page_of(DESK);
-    handle(&mut other).opened(name, Ok(text.clone().into_bytes()));
+    handle(&mut other).opened(name, Ok(bytes.clone()));
     other.run_steps(2);
     assert_eq!((&app(&other).state().scenario, app(&other).state().preset.as_str()), (&set, "bench"));
     assert!(other.query_by_label("centrode-bench.toml opened").is_some());

@@ -5,6 +5,7 @@
 mod links;
 mod painted;
 mod pictures;
+mod saving;
 mod stages;
 mod support;
 mod tuning;

@@ -4,6 +4,7 @@
 //! Thresholds are lines that can be dragged, typed and switched off; the playback position is scrubbed anywhere else.
 
 mod axis;
+mod between;
 mod frame;
 mod marks;
 mod panels;
@@ -13,6 +14,8 @@ pub use axis::{Axis, Steps};
 
 use crate::app::charts::paint::{Picture, Place, page};
 use crate::app::command::Command;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use crate::app::theme::Theme;
 use centrode_core::chart::layout::Page;
 use centrode_core::chart::{Chart, Series};
@@ -49,6 +52,10 @@ pub struct PlotState {
     pictures: [Option<Picture<Key>>; COUNT],
     /// Distance from the pointer to what it holds when a drag starts, points.
     grip: f32,
+    /// The times A and B, s; the page remembers them, not the plots.
+    pub marks: [Option<f64>; 2],
+    /// In which plot A and B are being set with the pointer, and where that began, points.
+    measured: Option<(usize, f32)>,
     /// What a touch that began on a plot turned out to be.
     touch: Touch,
 }
@@ -114,14 +121,22 @@ fn in_place(
         let page = Page { sides, pixel: f64::from(1.0 / ui.pixels_per_point()), ..page(SMALL) };
         let places = picture.show(ui.painter(), &theme, Frame::below_title(rect), page);
         if let Some(place) = places.into_iter().next() {
-            let frame = Frame::new(
+            let mut frame = Frame::new(
                 rect,
                 &place,
                 method.map_or(180.0 / std::f64::consts::PI, |m| course::measure(m).scale),
                 theme,
             );
+            // In the corner of the card.
+            if which == if beside { COUNT - 1 } else { 0 } {
+                let corner = pos2(rect.right() - 0.5 * save::BUTTON, rect.top() + 9.0);
+                let button = Rect::from_center_size(corner, Vec2::splat(save::BUTTON - 2.0));
+                save::menu_with(ui, button, Subject::Plots, state.marks.iter().all(Option::is_some), out);
+                frame.tool = save::BUTTON - RIGHT;
+            }
             let (state, out) = (&mut *state, &mut *out);
-            let mut view = View { run, cursor, hovered, frame, place, picture, which, top, state, out };
+            let marks = state.marks;
+            let mut view = View { run, cursor, marks, hovered, frame, place, picture, which, top, state, out };
             match method {
                 Some(method) => panels::judging(ui, &mut view, method),
                 None => panels::angle(ui, &mut view),
@@ -153,6 +168,8 @@ fn top(state: &mut PlotState, (run, version): (&Run, u64), method: Method) -> f6
 struct View<'a> {
     run: &'a Run,
     cursor: f64,
+    /// The times A and B, s.
+    marks: [Option<f64>; 2],
     /// Time under the pointer in the frame before, s.
     hovered: Option<f64>,
     frame: Frame,

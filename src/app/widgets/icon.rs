@@ -41,6 +41,8 @@ pub enum Icon {
     Close,
     /// An arrow out of a tray.
     Share,
+    /// An arrow into a tray.
+    Save,
 }
 
 /// How a button looks.
@@ -93,6 +95,7 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Controls => "controls",
         Icon::Close => "close",
         Icon::Share => "share",
+        Icon::Save => "save",
     }
 }
 
@@ -167,6 +170,12 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             painter.line_segment([p(0.0, 2.0), p(0.0, -6.0)], stroke);
             painter.line([(-3.2, -3.2), (0.0, -6.4), (3.2, -3.2)].map(|(x, y)| p(x, y)).to_vec(), stroke);
             let tray = [(-3.4, -0.8), (-5.6, -0.8), (-5.6, 6.0), (5.6, 6.0), (5.6, -0.8), (3.4, -0.8)];
+            painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
+        }
+        Icon::Save => {
+            painter.line_segment([p(0.0, -6.0), p(0.0, 2.0)], stroke);
+            painter.line([(-3.2, -0.8), (0.0, 2.4), (3.2, -0.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
+            let tray = [(-5.6, 2.4), (-5.6, 6.0), (5.6, 6.0), (5.6, 2.4)];
             painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
         }
         Icon::Close => {
