@@ -58,5 +58,6 @@ pub fn hand_out(effect: Effect) {
         Effect::Address { fragment, step } => hooks.address(&fragment, step),
         Effect::Save { name, text } => hooks.save(&name, &text),
         Effect::Choose => hooks.choose(),
+        Effect::Post(json) => hooks.post(&json),
     });
 }
