@@ -103,7 +103,7 @@ impl App {
             state,
             notes: BTreeMap::new(),
             chip: Chip::default(),
-            plots: PlotState::default(),
+            plots: PlotState { framed: host.embed.is_some(), ..PlotState::default() },
             studies: Studies::default(),
             tuner: Tuner::new(host.helper),
             stages: StageState::default(),
@@ -313,7 +313,7 @@ impl App {
             Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run)),
             Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
                 // Where they do not fit above each other they are scrolled.
-                let low = rect.width() < 796.0 && rect.height() < 430.0;
+                let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
                 if low {
                     let area = egui::ScrollArea::vertical().auto_shrink(false);
                     area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));
