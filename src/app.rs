@@ -103,7 +103,7 @@ impl App {
             state,
             notes: BTreeMap::new(),
             chip: Chip::default(),
-            plots: PlotState { framed: host.embed.is_some(), ..PlotState::default() },
+            plots: PlotState::new(host.embed.is_some()),
             studies: Studies::default(),
             tuner: Tuner::new(host.helper),
             stages: StageState::default(),

@@ -18,7 +18,7 @@ function fail(show, ...args) {
   if (failed) return;
   failed = true;
   show(...args);
-  host?.fail(document.getElementById("failed-title").textContent, args[0]);
+  host?.fail(document.querySelector(`#${document.documentElement.dataset.page} h1`).textContent, args[0]);
 }
 
 addEventListener("error", (event) => {

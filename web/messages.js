@@ -10,7 +10,8 @@ const MOST_WAITING = 100;
 /// or when none is given of this page's own.
 export function messages(origins) {
   if (window.parent === window) return null;
-  const allowed = origins.length > 0 ? origins : [location.origin];
+  // A sandboxed frame has no origin of its own, and then nobody shares it.
+  const allowed = (origins.length > 0 ? origins : [location.origin]).filter((origin) => origin !== "null");
   let core = null;
   let over = null;
   let waiting = [];

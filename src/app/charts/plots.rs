@@ -40,7 +40,7 @@ const GAP: f32 = 10.0;
 #[derive(Default)]
 pub struct PlotState {
     /// Whether they stand in the frame of another page.
-    pub framed: bool,
+    pub(crate) framed: bool,
     /// Time under the pointer, s: shown in all plots.
     hover: Option<f64>,
     /// Thresholds as they are when switched on again, SI; the page remembers them, not the plots.
@@ -55,6 +55,14 @@ pub struct PlotState {
     grip: f32,
     /// What a touch that began on a plot turned out to be.
     touch: Touch,
+}
+
+impl PlotState {
+    /// Of plots that stand in the frame of another page, or in a page of their own.
+    #[must_use]
+    pub fn new(framed: bool) -> Self {
+        Self { framed, ..Self::default() }
+    }
 }
 
 /// What a plot is made of: the run's version, its top, and whether its times have no numbers.
