@@ -9,11 +9,13 @@ mod apply;
 pub mod charts;
 pub mod command;
 pub mod controls;
+pub mod embed;
 pub mod fonts;
 mod keys;
 pub mod layout;
 pub mod link;
 pub mod memo;
+pub mod message;
 pub mod panels;
 pub mod saving;
 pub mod stages;
@@ -33,9 +35,11 @@ use charts::plane;
 use charts::plots::{self, PlotState};
 use command::Command;
 use controls::Inputs;
+use embed::Embed;
 use layout::Layout;
 use link::Sharing;
 use memo::Memo;
+use message::Listener;
 use panels::chip::Chip;
 use stages::StageState;
 use stages::source::Source;
@@ -61,6 +65,10 @@ pub struct Host {
     pub address: String,
     /// The fragment of the address, without `#`: a link.
     pub fragment: String,
+    /// What of the page is shown; none for all of it.
+    pub embed: Option<Embed>,
+    /// Whether a host page listens, see [`message`].
+    pub hosted: bool,
 }
 
 /// The whole page.
@@ -77,6 +85,8 @@ pub struct App {
     stages: StageState,
     source: Option<Source>,
     sharing: Sharing,
+    embed: Option<Embed>,
+    listener: Option<Listener>,
     prefers_reduced_motion: bool,
 }
 
@@ -94,14 +104,18 @@ impl App {
             state,
             notes: BTreeMap::new(),
             chip: Chip::default(),
-            plots: PlotState::default(),
+            plots: PlotState::new(host.embed.is_some()),
             studies: Studies::default(),
             tuner: Tuner::new(host.helper),
             stages: StageState::default(),
             source: None,
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
+            embed: host.embed,
+            listener: host.hosted.then(Listener::default),
         };
+        // Nothing moves there that playback would show.
+        app.state.playing = host.embed != Some(Embed::Tuning);
         app.go(&host.fragment);
         app
     }
@@ -172,6 +186,7 @@ impl App {
         }
         self.tell(ui);
         self.take_picture(ui.ctx());
+        self.tell_host();
         if self.state.playing {
             ui.ctx().request_repaint();
         }
@@ -209,7 +224,9 @@ impl App {
             return;
         }
         let step = ui.input(|input| f64::from(input.stable_dt)).min(LONGEST_STEP) * self.state.speed;
-        let (time, end) = (self.cursor() + step, self.end());
+        let (from, end) = (self.cursor(), self.end());
+        let time = from + step;
+        self.pass(from, time.min(end));
         if time < end {
             self.state.time = time;
         } else if self.state.looping {
@@ -231,7 +248,7 @@ impl App {
             (true, open) => f32::from(u8::from(open)),
             (false, open) => ui.ctx().animate_bool_responsive(egui::Id::unique("sheet"), open),
         };
-        let layout = Layout::new(page, sheet);
+        let layout = Layout::new(page, sheet, self.embed);
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
@@ -249,13 +266,21 @@ impl App {
             stages,
             source,
             sharing,
+            embed,
+            listener: _,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
 
-        panels::title::title(ui, layout.title, state, out);
-        panels::views::views(ui, layout.views, state.stage, state.paper, out);
-        panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+        if let Some(rect) = layout.title {
+            panels::title::title(ui, rect, state, out);
+        }
+        if let Some(rect) = layout.views {
+            panels::views::views(ui, rect, state.stage, state.paper, out);
+        }
+        if embed.is_none() {
+            panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+        }
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(refusal::told);
             let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
@@ -264,9 +289,11 @@ impl App {
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
         if robot {
-            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view, out));
-            layout::round(ui, layout.view);
-            chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
+            if let Some(rect) = layout.view {
+                layout::card(ui, "view", rect, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view, out));
+                layout::round(ui, rect);
+                chip.show(ui, rect.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
+            }
         } else {
             let inputs = stages::Inputs {
                 stage: state.stage,
@@ -278,14 +305,19 @@ impl App {
             };
             layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
         }
-        layout::card(ui, "transport", layout.transport, |ui| {
-            panels::transport::transport(ui, layout.transport, (state, run, cursor), out);
-        });
+        if let Some(rect) = layout.transport {
+            layout::card(ui, "transport", rect, |ui| {
+                panels::transport::transport(ui, rect, (state, run, cursor), out);
+            });
+        }
+        if embed.is_some() {
+            embed::tools(ui, layout.tools, layout.sheet.then_some(state.sheet), out);
+        }
         let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
             Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run)),
             Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
                 // Where they do not fit above each other they are scrolled.
-                let low = rect.width() < 796.0 && rect.height() < 430.0;
+                let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
                 if low {
                     let area = egui::ScrollArea::vertical().auto_shrink(false);
                     area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));

@@ -3,10 +3,12 @@
 //! The page (`index.html` and `web/loader.js`) owns the document; this file only calls the hooks that it was given.
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
+mod messages;
 mod outside;
 mod widgets;
 mod worker;
 
+use crate::app::embed::Embed;
 use crate::app::stages::tuner::Helper;
 use crate::app::{App, Host};
 use centrode_core::run::simulate;
@@ -20,7 +22,7 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment }`.
+    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment, embed, hosted }`.
     pub type Options;
     /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
     #[wasm_bindgen(method, getter)]
@@ -40,6 +42,12 @@ extern "C" {
     /// The fragment of the address, without `#`.
     #[wasm_bindgen(method, getter)]
     fn fragment(this: &Options) -> String;
+    /// What of the page is shown, by the name of an `app::embed::Embed`; anything else for all of it.
+    #[wasm_bindgen(method, getter)]
+    fn embed(this: &Options) -> String;
+    /// Whether a host page listens to [`Hooks::post`].
+    #[wasm_bindgen(method, getter)]
+    fn hosted(this: &Options) -> bool;
 
     /// What the page wants to hear of.
     pub type Hooks;
@@ -64,6 +72,9 @@ extern "C" {
     /// The person is to choose a file, see [`outside::file_opened`].
     #[wasm_bindgen(method)]
     fn choose(this: &Hooks);
+    /// The host page is to be told this, JSON.
+    #[wasm_bindgen(method)]
+    fn post(this: &Hooks, json: &str);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -113,6 +124,8 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         helper,
         address: options.address(),
         fragment: options.fragment(),
+        embed: Embed::named(&options.embed()),
+        hosted: options.hosted(),
     };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
@@ -191,6 +204,10 @@ struct Shell {
 }
 
 impl eframe::App for Shell {
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(&mut *self)
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         assert!(!FAIL.get(), "a test asked for this panic");
         outside::take_in(&mut self.app);

@@ -127,7 +127,7 @@ impl App {
         self.state.time = state::lead_in(&self.state.scenario);
     }
 
-    fn toggle_play(&mut self) {
+    pub(super) fn toggle_play(&mut self) {
         self.state.playing = !self.state.playing;
         if self.state.playing && self.cursor() >= self.end() {
             self.state.time = state::lead_in(self.memo.run().plan.scenario());
@@ -165,7 +165,7 @@ impl App {
     }
 
     /// Keeps the values of controls that a change switches off.
-    fn remember(&mut self, next: &Scenario) {
+    pub(super) fn remember(&mut self, next: &Scenario) {
         for control in controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|c| c.has_off()) {
             if let (Some(value), None) = (control.value(&self.state.scenario), control.value(next)) {
                 self.state.remembered.insert(control.key.into(), value);

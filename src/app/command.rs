@@ -19,6 +19,8 @@ pub enum Share {
     Save,
     /// Choose a file with a scenario, and open it.
     Open,
+    /// Open what a frame shows in a page of its own.
+    OwnPage,
 }
 
 /// One of two times that are held against each other.

@@ -9,6 +9,7 @@ use egui::Ui;
 
 use super::App;
 use crate::app::command::Share;
+use crate::app::embed::Embed;
 use crate::app::memo;
 use crate::app::panels::notice::Notice;
 use crate::app::stages::stage::{Section, Stage};
@@ -62,16 +63,18 @@ pub enum Effect {
     },
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
+    /// The host page is to be told this, JSON; see [`App::request`].
+    Post(String),
 }
 
 /// What is known of the world outside.
 #[derive(Debug)]
 pub struct Sharing {
     /// The page's address, without its fragment.
-    address: String,
+    pub(super) address: String,
     /// What the address says, as far as this page knows.
     told: (String, Scenario, Page),
-    effects: Vec<Effect>,
+    pub(super) effects: Vec<Effect>,
     /// What lies over the page to be read.
     pub(super) notice: Option<Notice>,
     /// Said in passing, and until when (s).
@@ -129,7 +132,7 @@ impl Sharing {
 }
 
 /// What a link says of the page in a state with its cursor (s).
-fn page(state: &State, cursor: f64) -> Page {
+pub(super) fn page(state: &State, cursor: f64) -> Page {
     Page {
         view: state.stage.key(),
         time: (!state.playing).then_some((cursor * 1e4).round() / 1e4),
@@ -174,7 +177,7 @@ impl App {
         self.sharing.told = self.current();
     }
 
-    fn load_link(&mut self, link: &Link) {
+    pub(super) fn load_link(&mut self, link: &Link) {
         let changed = link.preset().name != self.state.preset || *link.scenario() != self.state.scenario;
         if changed {
             self.state.preset = link.preset().name.into();
@@ -186,6 +189,9 @@ impl App {
         }
         let Page { view, time: _, speed, looping, rule, false_alarms, repeats } = link.page;
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
+        if let Some(only) = self.embed.and_then(Embed::stage) {
+            self.state.stage = only;
+        }
         if self.state.stage.section() == Section::Paper {
             self.state.paper = self.state.stage;
         }
@@ -226,7 +232,7 @@ impl App {
     }
 
     /// The link to what the page shows.
-    fn link(&self) -> Result<Link, ScenarioError> {
+    pub(super) fn link(&self) -> Result<Link, ScenarioError> {
         Link::new(self.state.preset(), &self.state.scenario, page(&self.state, self.cursor()))
     }
 
@@ -288,6 +294,14 @@ impl App {
                 let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
                 self.sharing.effects.push(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
+            Share::OwnPage => match self
+                .link()
+                .map_err(|why| why.to_string())
+                .and_then(|link| link.at(&self.sharing.address).map_err(|why| why.to_string()))
+            {
+                Ok(address) => ctx.open_url(egui::OpenUrl::new_tab(address)),
+                Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
+            },
             Share::Open => self.sharing.effects.push(Effect::Choose),
         }
     }

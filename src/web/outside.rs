@@ -73,5 +73,6 @@ pub fn hand_out(effect: Effect) {
             hooks.pixels(&name, width, height, &rgba);
         }
         Effect::Choose => hooks.choose(),
+        Effect::Post(json) => hooks.post(&json),
     });
 }

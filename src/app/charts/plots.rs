@@ -28,6 +28,8 @@ use std::collections::BTreeMap;
 
 /// From this width on the plots stand side by side.
 const SIDE_BY_SIDE: f32 = 780.0;
+/// In a frame, where scrolling is the host page's, from this width on before they would have to be scrolled.
+const FRAMED_SIDE_BY_SIDE: f32 = 480.0;
 /// Plots: one for each detector, and the tangent angle.
 const COUNT: usize = Method::ALL.len() + 1;
 /// Least heights of the plots when stacked, in points: of the first, of the others, and of the last.
@@ -40,6 +42,8 @@ const GAP: f32 = 10.0;
 /// What the plots remember between frames; nothing of it is an input of the experiment.
 #[derive(Default)]
 pub struct PlotState {
+    /// Whether they stand in the frame of another page.
+    pub(crate) framed: bool,
     /// Time under the pointer, s: shown in all plots.
     hover: Option<f64>,
     /// Thresholds as they are when switched on again, SI; the page remembers them, not the plots.
@@ -60,6 +64,14 @@ pub struct PlotState {
     touch: Touch,
 }
 
+impl PlotState {
+    /// Of plots that stand in the frame of another page, or in a page of their own.
+    #[must_use]
+    pub fn new(framed: bool) -> Self {
+        Self { framed, ..Self::default() }
+    }
+}
+
 /// What a plot is made of: the run's version, its top, and whether its times have no numbers.
 type Key = (u64, Option<u64>, bool);
 
@@ -76,7 +88,9 @@ enum Touch {
 pub fn plots(ui: &mut Ui, (run, version): (&Run, u64), cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
     let space = ui.available_size();
     let beside = space.x >= SIDE_BY_SIDE && !(space.y.is_finite() && space.y > 0.9 * space.x);
-    let least = if beside { LEAST_ROW } else { least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP };
+    let stacked = least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP;
+    let beside = beside || state.framed && space.x >= FRAMED_SIDE_BY_SIDE && space.y < stacked;
+    let least = if beside { LEAST_ROW } else { stacked };
     let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
     if space.y < least {
         let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);

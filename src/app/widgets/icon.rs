@@ -43,6 +43,8 @@ pub enum Icon {
     Share,
     /// An arrow into a tray.
     Save,
+    /// An arrow out of a window.
+    Open,
 }
 
 /// How a button looks.
@@ -96,6 +98,7 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Close => "close",
         Icon::Share => "share",
         Icon::Save => "save",
+        Icon::Open => "open",
     }
 }
 
@@ -177,6 +180,12 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             painter.line([(-3.2, -0.8), (0.0, 2.4), (3.2, -0.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
             let tray = [(-5.6, 2.4), (-5.6, 6.0), (5.6, 6.0), (5.6, 2.4)];
             painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
+        }
+        Icon::Open => {
+            let frame = [(0.4, -4.6), (-5.2, -4.6), (-5.2, 5.4), (4.8, 5.4), (4.8, 0.2)];
+            painter.line(frame.map(|(x, y)| p(x, y)).to_vec(), stroke);
+            painter.line_segment([p(-0.8, 1.0), p(5.6, -5.4)], stroke);
+            painter.line([(2.0, -5.6), (5.8, -5.6), (5.8, -1.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
         }
         Icon::Close => {
             painter.line_segment([p(-4.2, -4.2), p(4.2, 4.2)], stroke);

@@ -23,7 +23,7 @@ pub enum Kind {
 
 impl Kind {
     /// Both, in the order of their panels.
-    pub const ALL: &[Self] = [Self::Centrode, Self::Forces];
+    pub const ALL: &[Self] = &[Self::Centrode, Self::Forces];
 
     /// What its panel shows, in a line.
     #[must_use]
