@@ -120,7 +120,12 @@ fn captions_say_what_was_set_and_hold_the_link() {
     };
     for (name, args, flag, view) in [
         ("caption-figure", &["figure", "8"][..], "--out", "preset=figure-8&amp;contact.disk=3&amp;detection.armed"),
-        ("caption-run", &["run", "--preset", "bench"], "--figure", "preset=disk-3&amp;detection.armed"),
+        (
+            "caption-run",
+            &["run", "--preset", "bench"],
+            "--figure",
+            "preset=bench&amp;contact.disk=3&amp;detection.armed",
+        ),
         ("caption-table2", &["table2", "--repeats", "1"], "--svg", "view=table2"),
         ("caption-map", &["map", "--columns", "5", "--rows", "5"], "--out", "view=map"),
         ("caption-study", &["study", "--repeats", "2"], "--svg", "view=tuning"),

@@ -196,7 +196,7 @@ mod tests {
             let plan = Plan::new(&scenario).expect("possible");
             let mut simulation = Simulation::new(&plan);
             let mut timeline = Timeline::new(&scenario, Method::ALL, plan.samples());
-            while let Some(sample) = simulation.next() {
+            for sample in simulation.by_ref() {
                 timeline.push(&sample);
             }
             let streamed = simulated(timeline, &plan, simulation.events());

@@ -52,7 +52,7 @@ pub fn menu_with(ui: &mut Ui, rect: Rect, subject: Subject, marked: bool, out: &
     if is_asked(ui.ctx(), subject) {
         Popup::open_id(ui.ctx(), id);
     }
-    let opens = response.clicked() && !was_open || !was_open && Popup::is_id_open(ui.ctx(), id);
+    let opens = !was_open && (response.clicked() || Popup::is_id_open(ui.ctx(), id));
     let width = (ui.ctx().content_rect().width() - 40.0).min(300.0);
     Popup::menu(&response).accessible_name(&label).width(width).show(|ui| {
         ui.set_width(width);
