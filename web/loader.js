@@ -1,7 +1,8 @@
 // Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
 import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
-import { acceptDrops, choose, save } from "./files.js";
+import { acceptDrops, choose, chooseLog, save } from "./files.js";
+import { logs } from "./logs.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { readQuery } from "./query.js";
@@ -43,6 +44,9 @@ const hooks = {
   // Set once the program is there.
   choose: () => {},
   study: () => {},
+  chooseLog: () => {},
+  readLog: () => {},
+  fetchLog: () => {},
 };
 
 /// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
@@ -91,8 +95,12 @@ async function main() {
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
-  hooks.choose = () => choose(core);
-  acceptDrops(core);
+  const kept = logs(core, module);
+  hooks.choose = () => choose(core, kept);
+  hooks.chooseLog = () => chooseLog(core, kept);
+  hooks.readLog = kept.read;
+  hooks.fetchLog = kept.fetchBytes;
+  acceptDrops(core, kept);
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());

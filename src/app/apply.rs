@@ -87,6 +87,7 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::Log(wish) => self.wish_of_log(wish),
                 Command::Share(what) => self.share(ctx, what),
                 Command::CloseNotice => self.sharing.notice = None,
                 Command::CopyNotice => self.copy_notice(ctx),
@@ -120,7 +121,7 @@ impl App {
     fn toggle_play(&mut self) {
         self.state.playing = !self.state.playing;
         if self.state.playing && self.cursor() >= self.end() {
-            self.state.time = state::lead_in(self.memo.run().plan.scenario());
+            self.state.time = self.memo.lead_in();
         }
     }
 

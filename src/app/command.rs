@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::log::form::Edit;
 use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
 use centrode_core::scenario::Threshold;
@@ -18,6 +19,27 @@ pub enum Share {
     Save,
     /// Choose a file with a scenario, and open it.
     Open,
+    /// Choose a log, and show it in place of the simulation.
+    OpenLog,
+}
+
+/// What is wished of a log.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LogWish {
+    /// Tell how it was read.
+    Report,
+    /// Go back to the simulation.
+    Close,
+    /// Stop reading it.
+    Cancel,
+    /// Say how it is to be read.
+    Form,
+    /// Change what is said.
+    Edit(Edit),
+    /// Read it so.
+    Read,
+    /// Leave it as it is.
+    LeaveForm,
 }
 
 /// One wish.
@@ -91,6 +113,8 @@ pub enum Command {
     ToggleHelp,
     /// Hand something out, or ask for something to come in.
     Share(Share),
+    /// Do something with a log.
+    Log(LogWish),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

@@ -1,8 +1,8 @@
 //! What commands come to, without anything drawn.
 
 use super::*;
-use centrode_core::study::tuning::watch::Rule;
 use centrode_core::scenario::Threshold;
+use centrode_core::study::tuning::watch::Rule;
 
 fn page() -> (egui::Context, App) {
     let ctx = egui::Context::default();

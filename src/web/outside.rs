@@ -58,5 +58,7 @@ pub fn hand_out(effect: Effect) {
         Effect::Address { fragment, step } => hooks.address(&fragment, step),
         Effect::Save { name, text } => hooks.save(&name, &text),
         Effect::Choose => hooks.choose(),
+        Effect::ChooseLog => hooks.choose_log(),
+        Effect::Fetch(number) => hooks.fetch_log(number),
     });
 }

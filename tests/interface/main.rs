@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
 mod links;
+mod logs;
 mod painted;
 mod pictures;
 mod stages;
