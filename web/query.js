@@ -2,7 +2,7 @@
 
 const PARAMETERS = {
   renderer: { fallback: "auto", allowed: ["auto", "webgpu", "webgl"], means: "what to draw with" },
-  worker: { fallback: "auto", allowed: ["auto", "off"], means: "whether studies are made beside the page" },
+  worker: { fallback: "auto", allowed: ["auto", "off"], means: "whether studies are made and logs are read beside the page" },
   test: { fallback: false, flag: true, means: "opened by a test" },
 };
 // Added to links by mail programs and social sites; none of the person's doing.

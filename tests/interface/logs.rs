@@ -16,6 +16,7 @@ use egui::{OutputCommand, Vec2, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 fn handle(page: &mut Page) -> &mut App {
     page.state_mut().as_mut().expect("built")
@@ -84,6 +85,19 @@ fn a_dropped_log_is_judged_as_the_command_judges_it() {
         (report["detection_time"].as_f64(), report["location"].as_f64(), report["log"].as_str()),
         (Some(detection.time), Some(detection.location), Some("clean.csv"))
     );
+    // And so says the command itself.
+    let log = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/logs/clean.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
+    command.arg("analyze").arg(log).args(["--preset", "bench", "--json"]);
+    let said = command.output().expect("the command runs");
+    let said: serde_json::Value = serde_json::from_slice(&said.stdout).expect("JSON");
+    assert_eq!(
+        (said["detection"]["time"].as_f64(), said["detection"]["location"].as_f64()),
+        (Some(detection.time), Some(detection.location))
+    );
+    let raised: Vec<Option<f64>> = shown.events().iter().map(|event| Some(event.raised)).collect();
+    let events = said["events"].as_array().expect("events");
+    assert_eq!(events.iter().map(|event| event["raised"].as_f64()).collect::<Vec<_>>(), raised);
     assert_eq!(texts(&page, "Detected: 6.260 s").len(), 1, "{:?}", texts(&page, "Detected"));
     assert!(texts(&page, "Contact:").is_empty() && texts(&page, "Delay:").is_empty(), "nobody knows them");
     assert_eq!(texts(&page, "CSV · 600 rows").len(), 1);

@@ -141,7 +141,11 @@ impl Desk {
             Ok(reader) => {
                 self.reading = Some(Reading { parts, first, work: Work::Here(Box::new(reader)), progress });
             }
-            Err(error) => self.early = Some((parts, Err(error.into()))),
+            Err(error) => {
+                let refused = Refused::from(error);
+                let why = if first.is_some() { format!("{name}: {}", refused.why) } else { refused.why };
+                self.early = Some((parts, Err(Refused { why, ..Refused::default() })));
+            }
         }
     }
 
