@@ -51,7 +51,9 @@ pub fn columns(ui: &mut Ui, form: &Form, out: &mut Vec<Command>) {
         if let Some(why) = &form.why {
             ui.add(egui::Label::new(RichText::new(format!("{why}.")).size(13.5).color(theme.error)).wrap());
         }
-        ScrollArea::vertical().max_height((screen.height() - 200.0).max(80.0)).show(ui, |ui| {
+        // As high as it may be at once: it would grow frame by frame, and its buttons would move away from the pointer.
+        let height = (screen.height() - 220.0).max(80.0);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(width - 10.0);
             ui.add_space(4.0);
             preview(ui, form, &theme);

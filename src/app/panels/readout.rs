@@ -14,7 +14,7 @@ use centrode_core::run::Run;
 pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>) {
     let theme = Theme::of(ui);
     let (words, figures) = match recorded {
-        Some(recorded) => (log::words(run, recorded), log::figures(run, recorded)),
+        Some(recorded) => (log::words(run, recorded), log::figures(run)),
         None => (story::words(run), story::figures(run)),
     };
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {

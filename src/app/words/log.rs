@@ -71,7 +71,7 @@ pub fn words(run: &Run, recorded: &Recorded) -> String {
 
 /// A log in figures.
 #[must_use]
-pub fn figures(run: &Run, recorded: &Recorded) -> Vec<Figure> {
+pub fn figures(run: &Run) -> Vec<Figure> {
     let figure = |name, value: f64, decimals, unit| Figure { name, value: number(value, decimals), unit };
     let found = run.detection();
     let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
@@ -83,7 +83,6 @@ pub fn figures(run: &Run, recorded: &Recorded) -> Vec<Figure> {
         figure("Centrode alarms", count(Method::Fcd), 0, ""),
         figure("Joint force alarm", known(run.judged.first(Method::Jfd).map(|event| event.raised)), 3, "s"),
         figure("Joint force alarms", count(Method::Jfd), 0, ""),
-        figure("Loop rate", recorded.loop_rate, 0, "Hz"),
         figure("Log ends", run.sample(run.len() - 1).time, 3, "s"),
     ]
 }
