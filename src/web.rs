@@ -3,6 +3,7 @@
 //! The page (`index.html` and `web/loader.js`) owns the document; this file only calls the hooks that it was given.
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
+mod logs;
 mod messages;
 mod outside;
 mod widgets;
@@ -75,6 +76,15 @@ extern "C" {
     /// The host page is to be told this, JSON.
     #[wasm_bindgen(method)]
     fn post(this: &Hooks, json: &str);
+    /// The person is to choose a log, see [`logs::log_chosen`].
+    #[wasm_bindgen(method, js_name = chooseLog)]
+    fn choose_log(this: &Hooks);
+    /// A log is to be read by the worker (JSON), or none any more.
+    #[wasm_bindgen(method, js_name = readLog)]
+    fn read_log(this: &Hooks, request: Option<String>);
+    /// The bytes of a log are wanted, see [`logs::log_fetched`].
+    #[wasm_bindgen(method, js_name = fetchLog)]
+    fn fetch_log(this: &Hooks, number: u32);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -119,7 +129,9 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
     };
     let helper = options.worker().then(|| Box::new(worker::Worker) as Box<dyn Helper>);
+    let log_helper = options.worker().then(|| Box::new(logs::Clerk) as Box<dyn Helper>);
     let host = Host {
+        log_helper,
         prefers_reduced_motion: options.reduced_motion(),
         helper,
         address: options.address(),
@@ -211,6 +223,7 @@ impl eframe::App for Shell {
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         assert!(!FAIL.get(), "a test asked for this panic");
         outside::take_in(&mut self.app);
+        logs::take_in(&mut self.app);
         self.app.ui(ui);
         self.app.take_effects().into_iter().for_each(outside::hand_out);
         if TEST.get() {

@@ -82,9 +82,10 @@ function dataUrl(blob) {
   });
 }
 
-/// Hands a file to the program.
-async function open(core, file) {
+/// Hands a file to the program; `logs` takes those that are logs.
+async function open(core, logs, file) {
   try {
+    if (await logs.take(file)) return;
     // One byte more than is allowed says that it is too large.
     const bytes = await file.slice(0, MAX_BYTES + 1).arrayBuffer();
     core.file_opened(file.name, new Uint8Array(bytes));
@@ -93,14 +94,23 @@ async function open(core, file) {
   }
 }
 
-/// Lets the person choose a file.
-export function choose(core) {
-  const input = Object.assign(document.createElement("input"), { type: "file", accept: ".toml" });
+/// Lets the person choose a scenario.
+export function choose(core, logs) {
+  pick(".toml", (file) => open(core, logs, file));
+}
+
+/// Lets the person choose a log. Some systems do not know the extensions of logs, so all files can be chosen.
+export function chooseLog(core, logs) {
+  pick("", (file) => open(core, logs, file));
+}
+
+function pick(accept, take) {
+  const input = Object.assign(document.createElement("input"), { type: "file", accept });
   // Some browsers forget an input that is nowhere.
   input.hidden = true;
   const done = () => input.remove();
   input.addEventListener("change", () => {
-    if (input.files[0]) open(core, input.files[0]);
+    if (input.files[0]) take(input.files[0]);
     done();
   });
   input.addEventListener("cancel", done);
@@ -109,7 +119,7 @@ export function choose(core) {
 }
 
 /// Takes a file that is dropped anywhere on the page, which the browser would otherwise go to.
-export function acceptDrops(core) {
+export function acceptDrops(core, logs) {
   const files = (event) => event.dataTransfer?.types.includes("Files");
   // Before the canvas, which keeps such events to itself.
   addEventListener("dragover", (event) => files(event) && event.preventDefault(), true);
@@ -119,7 +129,7 @@ export function acceptDrops(core) {
       if (!files(event)) return;
       event.preventDefault();
       const file = event.dataTransfer.files[0];
-      if (file) open(core, file);
+      if (file) open(core, logs, file);
     },
     true,
   );

@@ -2,7 +2,8 @@
 import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
 import { passThrough } from "./embed.js";
-import { acceptDrops, choose, picture, pixels, save } from "./files.js";
+import { acceptDrops, choose, chooseLog, picture, pixels, save } from "./files.js";
+import { logs } from "./logs.js";
 import { messages } from "./messages.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
@@ -50,6 +51,9 @@ const hooks = {
   picture: () => {},
   pixels: () => {},
   study: () => {},
+  chooseLog: () => {},
+  readLog: () => {},
+  fetchLog: () => {},
 };
 
 /// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
@@ -101,10 +105,14 @@ async function main() {
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
-  hooks.choose = () => choose(core);
+  const kept = logs(core, module);
+  hooks.choose = () => choose(core, kept);
+  hooks.chooseLog = () => chooseLog(core, kept);
+  hooks.readLog = kept.read;
+  hooks.fetchLog = kept.fetchBytes;
   hooks.picture = (...drawing) => picture(core, ...drawing);
   hooks.pixels = (...image) => pixels(core, ...image);
-  acceptDrops(core);
+  acceptDrops(core, kept);
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (!(await startOnSome(core))) return;

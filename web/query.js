@@ -2,7 +2,7 @@
 
 const PARAMETERS = {
   renderer: { fallback: "auto", allowed: ["auto", "webgpu", "webgl"], means: "what to draw with" },
-  worker: { fallback: "auto", allowed: ["auto", "off"], means: "whether studies are made beside the page" },
+  worker: { fallback: "auto", allowed: ["auto", "off"], means: "whether studies are made and logs are read beside the page" },
   embed: { absent: "off", bare: "all", fallback: "all", allowed: ["robot", "plots", "tuning", "all"], means: "what of the page a frame shows" },
   origins: { fallback: [], list: origin, means: "the origins of host pages that may send messages, see docs/EMBED.md" },
   test: { fallback: false, flag: true, means: "opened by a test" },

@@ -322,13 +322,13 @@ impl Run {
         self.recording.truth.as_ref().and_then(|truth| truth.get(k))
     }
 
-    /// The shape of the backbone at a place in the run; where the truth is not known, the free shape commanded.
+    /// The shape of the backbone at a place in the run; where the truth is not known, the free shape last commanded.
     ///
     /// # Panics
     /// When `k` is not below [`Run::len`].
     #[must_use]
     pub fn shape(&self, k: usize) -> Shape {
-        let free = || Shape::Free(self.plan.segment().arc(self.recording.entries[k].configuration));
+        let free = || Shape::Free(self.plan.segment().arc(self.commanded(k)));
         self.truth(k).map_or_else(free, |truth| truth.shape)
     }
 

@@ -88,6 +88,7 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::Log(wish) => self.wish_of_log(wish),
                 Command::Share(what) => self.share(ctx, what),
                 Command::Mark(mark, time) => self.mark(mark, time),
                 Command::MarkHere(mark) => self.mark(mark, Some(self.cursor())),
@@ -130,7 +131,7 @@ impl App {
     pub(super) fn toggle_play(&mut self) {
         self.state.playing = !self.state.playing;
         if self.state.playing && self.cursor() >= self.end() {
-            self.state.time = state::lead_in(self.memo.run().plan.scenario());
+            self.state.time = self.memo.lead_in();
         }
     }
 

@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::log::form::Edit;
 use crate::app::saving::{Format, Subject};
 use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
@@ -21,6 +22,8 @@ pub enum Share {
     Open,
     /// Open what a frame shows in a page of its own.
     OwnPage,
+    /// Choose a log, and show it in place of the simulation.
+    OpenLog,
 }
 
 /// One of two times that are held against each other.
@@ -30,6 +33,25 @@ pub enum Mark {
     A,
     /// The second.
     B,
+}
+
+/// What is wished of a log.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LogWish {
+    /// Tell how it was read.
+    Report,
+    /// Go back to the simulation.
+    Close,
+    /// Stop reading it.
+    Cancel,
+    /// Say how it is to be read.
+    Form,
+    /// Change what is said.
+    Edit(Edit),
+    /// Read it so.
+    Read,
+    /// Leave it as it is.
+    LeaveForm,
 }
 
 /// One wish.
@@ -113,6 +135,8 @@ pub enum Command {
     Save(Subject, Format),
     /// Open the menu by which something is saved.
     OfferToSave(Subject),
+    /// Do something with a log.
+    Log(LogWish),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

@@ -10,6 +10,7 @@ use egui::Ui;
 use super::App;
 use crate::app::command::Share;
 use crate::app::embed::Embed;
+use crate::app::log::file::{File, is_log};
 use crate::app::memo;
 use crate::app::panels::notice::Notice;
 use crate::app::stages::stage::{Section, Stage};
@@ -65,6 +66,10 @@ pub enum Effect {
     Choose,
     /// The host page is to be told this, JSON; see [`App::request`].
     Post(String),
+    /// The person is to choose a log, which comes in by [`App::log_chosen`].
+    ChooseLog,
+    /// The bytes of a file of this number are wanted, by [`App::log_fetched`].
+    Fetch(u32),
 }
 
 /// What is known of the world outside.
@@ -112,6 +117,10 @@ impl Sharing {
         self.said.as_ref().map(|(text, _)| text.as_str())
     }
 
+    pub(super) fn push(&mut self, effect: Effect) {
+        self.effects.push(effect);
+    }
+
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.said = Some((text.into(), None));
     }
@@ -135,7 +144,8 @@ impl Sharing {
 pub(super) fn page(state: &State, cursor: f64) -> Page {
     Page {
         view: state.stage.key(),
-        time: (!state.playing).then_some((cursor * 1e4).round() / 1e4),
+        // A log may be longer than the scenario, whose address this is.
+        time: (!state.playing).then_some((cursor.min(state.scenario.motion.end) * 1e4).round() / 1e4),
         speed: state.speed,
         looping: state.looping,
         rule: state.tuning.rule.name(),
@@ -203,6 +213,10 @@ impl App {
 
     /// A file has come in, chosen or dropped; or why it could not be read.
     pub fn opened(&mut self, name: &str, bytes: Result<Vec<u8>, String>) {
+        let bytes = match bytes {
+            Ok(bytes) if is_log(name, &bytes) => return self.log_chosen(File::here(name, bytes)),
+            bytes => bytes,
+        };
         let read = bytes.and_then(|bytes| {
             if bytes.len() > MAX_FILE {
                 return Err("It is larger than 1 MiB, so it is no scenario".into());
@@ -268,7 +282,7 @@ impl App {
             Share::CopyLink => {
                 let here = |mut link: Link| {
                     // What one sees, also while it moves.
-                    link.page.time = Some((self.cursor() * 1e4).round() / 1e4);
+                    link.page.time = Some((self.cursor().min(self.state.scenario.motion.end) * 1e4).round() / 1e4);
                     if self.sharing.address.is_empty() {
                         return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
                     }
@@ -303,6 +317,7 @@ impl App {
                 Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
             },
             Share::Open => self.sharing.effects.push(Effect::Choose),
+            Share::OpenLog => self.sharing.effects.push(Effect::ChooseLog),
         }
     }
 
@@ -316,7 +331,8 @@ impl App {
             }
             None => self.link()?,
         };
-        Ok(link.command())
+        let of_log = self.log_command(&link).filter(|_| self.state.stage == Stage::Robot);
+        Ok(of_log.unwrap_or_else(|| link.command()))
     }
 
     pub(super) fn copy_notice(&mut self, ctx: &egui::Context) {

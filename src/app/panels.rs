@@ -1,6 +1,8 @@
 //! The parts of the page.
 
 pub mod chip;
+pub mod columns;
+pub mod log;
 pub mod notice;
 pub mod readout;
 pub mod save;

@@ -26,8 +26,7 @@ use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
 use crate::app::words::refusal;
 use centrode_core::chart::Chart;
-use centrode_core::run::Run;
-use centrode_core::scenario::Scenario;
+use centrode_core::scenario::{Plan, Scenario};
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 use tuning::TuningState;
 
@@ -58,8 +57,10 @@ impl StageState {
 pub struct Inputs<'a> {
     /// What stands on it.
     pub stage: Stage,
-    /// The experiment on the page.
-    pub run: &'a Run,
+    /// What is set on the page.
+    pub plan: &'a Plan,
+    /// Whether a log is shown in place of its simulation.
+    pub log: bool,
     /// The preset that resets go back to: its name and scenario.
     pub base: (&'a str, &'a Scenario),
     /// What a figure or Table II is made with.

@@ -124,7 +124,7 @@ impl AnalyzeArgs {
         };
         let (log, commands) = self.read(&scenario)?;
         let about_log = blame(&self.log);
-        let setup = Setup { rate, commands, hold: self.hold, frame };
+        let setup = Setup { rate, commands, hold: self.hold, frame, most: None };
         let assembled = assemble(&log, &scenario, &setup).map_err(&about_log)?;
         for outlook in assembled.outlooks.iter().filter(|outlook| !outlook.works) {
             if self.detectors.iter().any(|name| name == outlook.detector.key()) {

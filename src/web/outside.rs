@@ -74,5 +74,7 @@ pub fn hand_out(effect: Effect) {
         }
         Effect::Choose => hooks.choose(),
         Effect::Post(json) => hooks.post(&json),
+        Effect::ChooseLog => hooks.choose_log(),
+        Effect::Fetch(number) => hooks.fetch_log(number),
     });
 }

@@ -4,6 +4,7 @@
 
 mod embed;
 mod links;
+mod logs;
 mod painted;
 mod pictures;
 mod saving;

@@ -31,7 +31,7 @@ pub fn map(
     out: &mut Vec<Command>,
 ) {
     let theme = Theme::of(ui);
-    let plan = &inputs.run.plan;
+    let plan = inputs.plan;
     let nowhere = Contact { place: At::Nowhere, ..Contact::default() };
     let key = (version, Scenario { contact: nowhere, ..plan.scenario().clone() });
     let picture = Picture::keep(kept, ui.ctx(), &theme, (key, true), || without_contact(shown, plan));
@@ -67,7 +67,7 @@ pub fn map(
 
 /// The values where the contact is, in words.
 fn summary(map: &ContactMap, inputs: &Inputs<'_>) -> String {
-    let plan = &inputs.run.plan;
+    let plan = inputs.plan;
     let Some(contact) = plan.contact() else {
         return "There is no contact now: click where it should be.".into();
     };

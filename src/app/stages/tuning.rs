@@ -201,7 +201,7 @@ fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
     let lengths = inputs.tuner.shown(inputs.tuning.rule).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
-    let (scenario, hint) = if base == inputs.run.plan.scenario() {
+    let (scenario, hint) = if base == inputs.plan.scenario() {
         (format!("--preset {name}"), "")
     } else {
         ("my.toml".into(), "   (my.toml: this scenario)")
@@ -316,8 +316,14 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
     });
 }
 
-/// Says that the page makes the runs because its helper could not.
+/// Says what is not as one would expect: that a log is not what is studied, or that the page makes the runs because its helper
+/// could not.
 fn trouble(ui: &mut Ui, inputs: &Inputs<'_>, theme: &Theme) {
+    if inputs.log {
+        let said = "This studies simulations of what is set, not the log that is shown: delays need to know when contact began, \
+                    and a log does not say. To see what a threshold makes of the log, drag its line in the plots.";
+        ui.add(Label::new(job(said, 12.5, theme.ink)).wrap());
+    }
     if let Some(why) = inputs.tuner.trouble() {
         let said = format!("The worker failed ({why}). The page makes the runs itself, between its frames.");
         ui.add(Label::new(job(&said, 12.0, theme.error)).wrap());

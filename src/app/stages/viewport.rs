@@ -18,7 +18,6 @@ use crate::scene::{Camera, Scene, Studio};
 use crate::show::track::Trace;
 use crate::show::{ViewOptions, home_camera, view};
 use centrode_core::run::Run;
-use centrode_core::scenario::Scenario;
 
 /// The ring around a fresh detection runs for this long, s of the run.
 const PULSE: f64 = 0.9;
@@ -44,7 +43,7 @@ pub struct ViewState {
 /// All that the scene depends on.
 #[derive(Debug, PartialEq)]
 struct Shown {
-    scenario: Scenario,
+    version: u64,
     time: f64,
     dark: bool,
 }
@@ -97,9 +96,8 @@ impl ViewState {
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, run: &Run, trace: &Trace, time: f64, dark: bool) {
-        let scenario = run.plan.scenario();
-        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.scenario == *scenario;
+    fn update(&mut self, (run, version): (&Run, u64), trace: &Trace, time: f64, dark: bool) {
+        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.version == version;
         if self.shown.as_ref().is_some_and(same) {
             return;
         }
@@ -107,12 +105,20 @@ impl ViewState {
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
         self.scene = Arc::new(view(run, trace, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
         self.version += 1;
-        self.shown = Some(Shown { scenario: scenario.clone(), time, dark });
+        self.shown = Some(Shown { version, time, dark });
     }
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut ViewState, out: &mut Vec<Command>) {
+/// `version` is another for every other run.
+pub fn viewport(
+    ui: &mut Ui,
+    (run, version): (&Run, u64),
+    trace: &Trace,
+    cursor: f64,
+    state: &mut ViewState,
+    out: &mut Vec<Command>,
+) {
     let theme = Theme::of(ui);
     let rect = ui.max_rect();
     if state.gpu.is_none() {
@@ -125,7 +131,7 @@ pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut 
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
-    state.update(run, trace, cursor, theme.dark);
+    state.update((run, version), trace, cursor, theme.dark);
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::for_dark(theme.dark).studio;

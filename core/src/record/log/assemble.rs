@@ -37,6 +37,29 @@ pub enum Rate {
     Log,
 }
 
+impl Rate {
+    /// In a few words.
+    #[must_use]
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::Scenario => "the scenario says so",
+            Self::Log => "from the spacing of the rows",
+        }
+    }
+}
+
+impl Commands {
+    /// In a few words.
+    #[must_use]
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::Log => "as recorded",
+            Self::Motion => "from the scenario's motion",
+            Self::Estimated => "none: the bend is estimated from the measured angle, as if the robot bent freely",
+        }
+    }
+}
+
 /// Where the commands come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -60,6 +83,8 @@ pub struct Setup {
     pub hold: Option<f64>,
     /// Where the log's frame is.
     pub frame: frame::Setting,
+    /// The most entries that are wanted; none for [`MAX_ENTRIES`], which is never exceeded.
+    pub most: Option<usize>,
 }
 
 /// A value is held for at least this long, s.
@@ -106,7 +131,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     let plan = Plan::new(&scenario).map_err(|error| LogError::file(format!("with this log, {error}")))?;
     let source = source(log, setup.commands)?;
     let start = clock::start(times[0], log.origin, &scenario, &mut report);
-    let ticks = Ticks::new(times, scenario.loop_rate, &mut report)?;
+    let most = setup.most.map_or(MAX_ENTRIES, |most| most.min(MAX_ENTRIES));
+    let ticks = Ticks::new(times, scenario.loop_rate, most, &mut report)?;
     let ordered = ordered(log, &plan, &mut report)?;
     let commanded = |at: f64| commanded(source, &plan, &ordered, at, start);
     let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);

@@ -1,10 +1,11 @@
 //! Why a log is refused.
 
 use super::report::Place;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Why a log is refused: where, what stands there, and what is allowed.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[error("{}{what}{}{allowed}", prefix(.place), if .allowed.is_empty() { "" } else { "; allowed: " })]
 pub struct LogError {
     /// Where.

@@ -14,11 +14,11 @@ use super::{Format, Log, Options, Progress};
 use crate::model::configuration::bend_from_theta_l;
 use container::{Fields, MAGIC, chunk, op, record};
 use message::{Content, Encoding, Kind, read};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A topic of a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Topic {
     /// Its name.
     pub name: String,
