@@ -1,7 +1,7 @@
 //! The interface.
 //!
 //! [`state::State`] is all that a person sets. [`memo::Memo`] turns its scenario into a run when that changes. Panels
-//! and views read both and emit [`command::Command`]s; [`apply`] carries them out, and nothing else changes state.
+//! and views read both and emit [`command::Command`]s; `apply` carries them out, and nothing else changes state.
 //!
 //! Time comes from egui's input alone, so that a test's pictures do not move.
 

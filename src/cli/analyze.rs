@@ -9,6 +9,7 @@ use super::draw::{self, Format as Drawing};
 use super::output::{Failure, NewFile, Table};
 use super::report::{Report, print, too_many};
 use centrode_core::chart::notation::plain;
+use centrode_core::detect::outlook::outlooks;
 use centrode_core::detect::{Method, Settings};
 use centrode_core::record::log::frame::{Frame, Setting};
 use centrode_core::record::log::{
@@ -126,7 +127,7 @@ impl AnalyzeArgs {
         let about_log = blame(&self.log);
         let setup = Setup { rate, commands, hold: self.hold, frame, most: None };
         let assembled = assemble(&log, &scenario, &setup).map_err(&about_log)?;
-        for outlook in assembled.outlooks.iter().filter(|outlook| !outlook.works) {
+        for outlook in outlooks(&log, assembled.commands).iter().filter(|outlook| !outlook.works) {
             if self.detectors.iter().any(|name| name == outlook.detector.key()) {
                 return Err(about_log(LogError::file(format!(
                     "--detectors {}: {}",

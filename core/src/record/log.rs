@@ -18,7 +18,7 @@ pub mod text;
 pub mod units;
 pub mod write;
 
-pub use assemble::{Assembled, Commands, Outlook, Rate, Setup, assemble};
+pub use assemble::{Assembled, Commands, Rate, Setup, assemble};
 pub use error::LogError;
 pub use gather::Track;
 pub use header::{Column, Mapping, Origin, Role};

@@ -2,8 +2,9 @@
 
 use std::rc::Rc;
 
+use centrode_core::detect::outlook::{Outlook, outlooks};
 use centrode_core::record::log::frame::Setting;
-use centrode_core::record::log::{Commands, Log, LogError, Outlook, Rate, Report, Setup, assemble};
+use centrode_core::record::log::{Commands, Log, LogError, Rate, Report, Setup, assemble};
 use centrode_core::run::Run;
 use centrode_core::scenario::{Contact, Place, Plan, Scenario, ScenarioError};
 
@@ -43,6 +44,7 @@ impl Recorded {
         let plan = plan(scenario, loop_rate).map_err(|error| LogError::file(format!("with this log, {error}")))?;
         let run = Run::recorded(plan, made.recording);
         let run = run.ok_or_else(|| LogError::file("holds no row that can be used"))?;
+        let outlooks = outlooks(&log, made.commands);
         let recorded = Self {
             log,
             setup,
@@ -50,7 +52,7 @@ impl Recorded {
             loop_rate,
             rate: made.rate,
             commands: made.commands,
-            outlooks: made.outlooks,
+            outlooks,
             report: made.report,
         };
         Ok((recorded, run))

@@ -1,8 +1,9 @@
 //! How a log was read, told.
 
+use centrode_core::detect::outlook::{Outlook, outlooks};
 use centrode_core::record::log::assemble::Assembled;
 use centrode_core::record::log::frame::Fit;
-use centrode_core::record::log::{Column, Commands, Format, Log, Outlook, Rate, Report};
+use centrode_core::record::log::{Column, Commands, Format, Log, Rate, Report};
 use centrode_core::scenario::text::number;
 use serde::Serialize;
 use std::io::Write;
@@ -38,7 +39,7 @@ impl About {
             commands: assembled.commands,
             start: assembled.start,
             frame: assembled.fit,
-            detectors: assembled.outlooks.clone(),
+            detectors: outlooks(log, assembled.commands),
             report: assembled.report.clone(),
         }
     }

@@ -2,9 +2,6 @@
 
 mod clock;
 mod hold;
-mod outlook;
-
-pub use outlook::Outlook;
 
 use super::error::LogError;
 use super::gather::Track;
@@ -109,8 +106,6 @@ pub struct Assembled {
     pub start: f64,
     /// Where the log's frame is, when it was fitted.
     pub fit: Option<frame::Fit>,
-    /// Which detectors work, and why not.
-    pub outlooks: Vec<Outlook>,
 }
 
 /// Puts a log on the loop's clock.
@@ -171,18 +166,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     if source == Commands::Log {
         order.tell([Happening::HeldCommand, Happening::GapInCommands], start, &mut report);
     }
-    let outlooks = outlook::outlooks(log, source);
     let recording = Recording { entries, truth: None };
-    Ok(Assembled {
-        plan,
-        recording,
-        report,
-        rate: setup.rate,
-        commands: source,
-        start: log.origin + start,
-        fit,
-        outlooks,
-    })
+    Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start: log.origin + start, fit })
 }
 
 /// Where the commands come from.
