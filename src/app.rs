@@ -304,7 +304,7 @@ impl App {
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
                 Refusal::Scenario(refused) => refusal::told(refused),
-                Refusal::Log(refused) => format!("The log does not fit what is set: {refused}"),
+                Refusal::Log(refused) => format!("The log does not fit what is set: {}", refused.without_flags()),
             });
             let log = memo.recorded();
             let inputs = Inputs { state, base, notes, refusal, log, touch: layout.sheet };

@@ -31,7 +31,7 @@ pub struct Refused {
 
 impl From<LogError> for Refused {
     fn from(error: LogError) -> Self {
-        Self { why: error.to_string(), topics: Vec::new() }
+        Self { why: error.without_flags(), topics: Vec::new() }
     }
 }
 

@@ -210,7 +210,7 @@ fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogE
         if let Some(allowed) = bend_refused(segment, *bend) {
             let what = format!("a commanded bend of {bend} rad: the model does not reach so far; is the unit right?");
             let allowed = allowed.words(Quantity::Angle, Units::Si);
-            return Err(LogError { place: Place::line(u64::from(*line)), what, allowed });
+            return Err(LogError { place: Place::line(u64::from(*line)), what, allowed, way: "".into() });
         }
     }
     Ok(Track { times: track.0.clone(), lines: track.1.clone(), values })

@@ -289,12 +289,12 @@ fn settle(columns: &mut [Column], line: u64) -> Result<(), LogError> {
             } else if let Some((place, header)) = &found {
                 let key = role.key();
                 let what = format!(
-                    "columns {} ({header}) and {} ({}) could both be {key}: say which with --map {key}=column",
+                    "columns {} ({header}) and {} ({}) could both be {key}",
                     place + 1,
                     column.place + 1,
                     column.header
                 );
-                return Err(LogError::line(line, what));
+                return Err(LogError::line(line, what).or(format!(": say which with --map {key}=column")));
             } else {
                 found = Some((column.place, column.header.clone()));
             }

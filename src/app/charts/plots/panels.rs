@@ -65,7 +65,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     view.scrub(ui, &format!("Plot of the {} over time", name.to_lowercase()));
     view.frame.title(&painter, &format!("{name} {symbol} ({unit})"), &format!("{symbol} ({unit})"), &readouts);
     if !view.has_values() {
-        empty(&painter, &view.frame, "not defined anywhere in this run");
+        empty(&painter, &view.frame, "no values in this run");
     }
     let dots: Vec<_> = curves.iter().rev().map(|curve| (value(curve, &now), ink(curve))).collect();
     view.between(&painter);
