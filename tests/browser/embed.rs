@@ -96,7 +96,9 @@ fn an_origin_that_is_not_listed_is_not_heard() {
     wait_for(&mut page, "ready");
     point(&mut page, &format!("{base}?embed=robot&origins=https://other.example"));
     page.wait("the frame", |page| {
-        let shown = "document.getElementById('frame').contentDocument?.getElementById('mirror')?.dataset.ready";
+        // The page that the frame leaves is ready, too.
+        let shown = "(w => w.location.search.includes('origins') && w.document.getElementById('mirror')?.dataset.ready)\
+             (document.getElementById('frame').contentWindow)";
         (page.eval(shown) == "true").then_some(())
     });
     // Heard in the frame after the frame's own listener, and answered by nobody.
