@@ -1,7 +1,7 @@
 //! The interface.
 //!
 //! [`state::State`] is all that a person sets. [`memo::Memo`] turns its scenario into a run when that changes. Panels
-//! and views read both and emit [`command::Command`]s; [`apply`] carries them out, and nothing else changes state.
+//! and views read both and emit [`command::Command`]s; `apply` carries them out, and nothing else changes state.
 //!
 //! Time comes from egui's input alone, so that a test's pictures do not move.
 
@@ -9,12 +9,16 @@ mod apply;
 pub mod charts;
 pub mod command;
 pub mod controls;
+pub mod embed;
 pub mod fonts;
 mod keys;
 pub mod layout;
 pub mod link;
+pub mod log;
 pub mod memo;
+pub mod message;
 pub mod panels;
+pub mod saving;
 pub mod stages;
 pub mod state;
 pub mod theme;
@@ -32,9 +36,12 @@ use charts::plane;
 use charts::plots::{self, PlotState};
 use command::Command;
 use controls::Inputs;
+use embed::Embed;
 use layout::Layout;
 use link::Sharing;
-use memo::Memo;
+use log::Logs;
+use memo::{Memo, Refusal};
+use message::Listener;
 use panels::chip::Chip;
 use stages::StageState;
 use stages::source::Source;
@@ -56,10 +63,16 @@ pub struct Host {
     pub prefers_reduced_motion: bool,
     /// Who makes studies outside the interface; without, they are made between frames.
     pub helper: Option<Box<dyn Helper>>,
+    /// Who reads logs outside the interface; without, they are read between frames.
+    pub log_helper: Option<Box<dyn Helper>>,
     /// The page's address, without its fragment; empty where it has none.
     pub address: String,
     /// The fragment of the address, without `#`: a link.
     pub fragment: String,
+    /// What of the page is shown; none for all of it.
+    pub embed: Option<Embed>,
+    /// Whether a host page listens, see [`message`].
+    pub hosted: bool,
 }
 
 /// The whole page.
@@ -76,6 +89,9 @@ pub struct App {
     stages: StageState,
     source: Option<Source>,
     sharing: Sharing,
+    embed: Option<Embed>,
+    listener: Option<Listener>,
+    logs: Logs,
     prefers_reduced_motion: bool,
 }
 
@@ -93,14 +109,19 @@ impl App {
             state,
             notes: BTreeMap::new(),
             chip: Chip::default(),
-            plots: PlotState::default(),
+            plots: PlotState::new(host.embed.is_some()),
             studies: Studies::default(),
             tuner: Tuner::new(host.helper),
             stages: StageState::default(),
             source: None,
+            logs: Logs::new(host.log_helper),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
+            embed: host.embed,
+            listener: host.hosted.then(Listener::default),
         };
+        // Nothing moves there that playback would show.
+        app.state.playing = host.embed != Some(Embed::Tuning);
         app.go(&host.fragment);
         app
     }
@@ -145,7 +166,11 @@ impl App {
             "detection_time": run.detection().map(|detection| detection.time),
             "location": run.detection().map(|detection| detection.location),
             "playing": self.state.playing,
-            "summary": story::sentence(run),
+            "summary": match self.memo.recorded() {
+                Some(recorded) => words::log::sentence(run, recorded),
+                None => story::sentence(run),
+            },
+            "log": self.log(),
             "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.rule)).flatten(),
         })
         .to_string()
@@ -156,9 +181,13 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
-            keys::read(ui, self.end(), self.state.help || self.sharing.notice.is_some(), &mut out);
+            let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
+            keys::read(ui, self.end(), self.state.stage, covered, &mut out);
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
+            if self.work_log() {
+                ui.ctx().request_repaint();
+            }
         }
         self.memo.update(&self.state.scenario);
         self.study(ui);
@@ -169,6 +198,8 @@ impl App {
             ui.ctx().request_discard("the scenario has changed");
         }
         self.tell(ui);
+        self.take_picture(ui.ctx());
+        self.tell_host();
         if self.state.playing {
             ui.ctx().request_repaint();
         }
@@ -176,13 +207,13 @@ impl App {
 
     /// A few pieces of the work for what is on the stage.
     fn study(&mut self, ui: &Ui) {
-        let (stage, live) = (self.state.stage, self.memo.run().plan.scenario());
+        let (stage, live) = (self.state.stage, self.memo.plan().scenario());
         Source::update(&mut self.source, stage, (&self.state.preset, &self.base), live);
         self.studies.update(stage, self.source.as_ref().map_or(live, |source| &source.scenario));
         if ui.ctx().current_pass_index() == 0 && self.studies.work() {
             ui.ctx().request_repaint();
         }
-        let scenario = self.memo.run().plan.scenario();
+        let scenario = self.memo.plan().scenario();
         // A pointer or a key that is down may be moving a threshold.
         let moving = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
         self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats, moving);
@@ -193,7 +224,7 @@ impl App {
     }
 
     fn end(&self) -> f64 {
-        self.memo.run().plan.scenario().motion.end
+        memo::end(self.memo.run())
     }
 
     /// The cursor, inside the run.
@@ -206,11 +237,13 @@ impl App {
             return;
         }
         let step = ui.input(|input| f64::from(input.stable_dt)).min(LONGEST_STEP) * self.state.speed;
-        let (time, end) = (self.cursor() + step, self.end());
+        let (from, end) = (self.cursor(), self.end());
+        let time = from + step;
+        self.pass(from, time.min(end));
         if time < end {
             self.state.time = time;
         } else if self.state.looping {
-            self.state.time = state::lead_in(self.memo.run().plan.scenario());
+            self.state.time = self.memo.lead_in();
         } else {
             self.state.time = end;
             self.state.playing = false;
@@ -228,10 +261,14 @@ impl App {
             (true, open) => f32::from(u8::from(open)),
             (false, open) => ui.ctx().animate_bool_responsive(egui::Id::unique("sheet"), open),
         };
-        let layout = Layout::new(page, sheet);
+        let banner = self.logs.banner(self.memo.recorded());
+        let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
+        let (top, page) = page.split_top_bottom_at_y(page.top() + above);
+        let layout = Layout::new(page, sheet, self.embed);
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
+        self.plots.marks = self.state.marks;
         let Self {
             state,
             base,
@@ -245,28 +282,49 @@ impl App {
             stages,
             source,
             sharing,
+            embed,
+            listener: _,
+            logs,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
 
-        panels::title::title(ui, layout.title, state, out);
-        panels::views::views(ui, layout.views, state.stage, state.paper, out);
-        panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+        if let Some(banner) = &banner {
+            panels::log::banner(ui, top, banner, out);
+        }
+        if let Some(rect) = layout.title {
+            panels::title::title(ui, rect, state, out);
+        }
+        if let Some(rect) = layout.views {
+            panels::views::views(ui, rect, state.stage, state.paper, out);
+        }
+        if embed.is_none() {
+            panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+        }
         if let Some(rect) = layout.controls {
-            let refusal = memo.refusal().map(refusal::told);
-            let inputs = Inputs { state, base, notes, refusal, touch: layout.sheet };
+            let refusal = memo.refusal().map(|refused| match refused {
+                Refusal::Scenario(refused) => refusal::told(refused),
+                Refusal::Log(refused) => format!("The log does not fit what is set: {}", refused.without_flags()),
+            });
+            let log = memo.recorded();
+            let inputs = Inputs { state, base, notes, refusal, log, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
         }
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
         if robot {
-            layout::card(ui, "view", layout.view, |ui| viewport::viewport(ui, run, memo.trace(), cursor, view));
-            layout::round(ui, layout.view);
-            chip.show(ui, layout.view.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
+            if let Some(rect) = layout.view {
+                layout::card(ui, "view", rect, |ui| {
+                    viewport::viewport(ui, (run, memo.version()), memo.trace(), cursor, view, out);
+                });
+                layout::round(ui, rect);
+                chip.show(ui, rect.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
+            }
         } else {
             let inputs = stages::Inputs {
                 stage: state.stage,
-                run,
+                plan: memo.plan(),
+                log: run.is_recorded(),
                 base: (&state.preset, base),
                 source: source.as_ref(),
                 tuner,
@@ -274,14 +332,19 @@ impl App {
             };
             layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
         }
-        layout::card(ui, "transport", layout.transport, |ui| {
-            panels::transport::transport(ui, layout.transport, (state, run, cursor), out);
-        });
+        if let Some(rect) = layout.transport {
+            layout::card(ui, "transport", rect, |ui| {
+                panels::transport::transport(ui, rect, (state, run, cursor), out);
+            });
+        }
+        if embed.is_some() {
+            embed::tools(ui, layout.tools, layout.sheet.then_some(state.sheet), out);
+        }
         let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
-            Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run)),
+            Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run, memo.recorded())),
             Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
                 // Where they do not fit above each other they are scrolled.
-                let low = rect.width() < 796.0 && rect.height() < 430.0;
+                let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
                 if low {
                     let area = egui::ScrollArea::vertical().auto_shrink(false);
                     area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));
@@ -309,6 +372,9 @@ impl App {
             words::help::help(ui, out);
         }
         panels::share::said(ui, layout.tools, sharing.said(ui));
+        if let Some(form) = &logs.form {
+            panels::columns::columns(ui, form, out);
+        }
         if let Some(notice) = &sharing.notice {
             panels::notice::notice(ui, notice, out);
         }

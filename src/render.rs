@@ -15,6 +15,7 @@ mod buffer;
 mod mesh;
 mod overlay;
 mod pipelines;
+mod snapshot;
 mod target;
 mod uniforms;
 mod view;
@@ -23,6 +24,7 @@ use std::collections::HashMap;
 
 use pipelines::Pipelines;
 pub use pipelines::SHADERS;
+pub use snapshot::{Lost, Pixels, Snapshot};
 use view::View;
 
 use crate::scene::{Camera, Scene, Studio};
@@ -78,6 +80,16 @@ impl Renderer {
         let Self { pipelines, views } = self;
         let view = views.entry(frame.view).or_insert_with(|| View::new(device, pipelines));
         view.draw(device, queue, encoder, pipelines, frame)
+    }
+
+    /// Draws a frame and asks for its pixels; the view of the frame must be no other's. None for a frame that cannot be drawn.
+    pub fn snapshot(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, frame: &Frame<'_>) -> Option<Snapshot> {
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("snapshot") });
+        self.prepare(device, queue, &mut encoder, frame);
+        let snapshot = self.views.get(&frame.view)?.snapshot(device, queue, encoder);
+        // Its pictures are large, and the next one may be long in coming.
+        self.forget(frame.view);
+        snapshot
     }
 
     /// Lays a view's picture over the pass's viewport. Without a picture it does nothing.

@@ -3,12 +3,13 @@
 pub mod ink;
 mod load;
 mod loci;
+pub mod paper;
 mod robot;
 pub mod track;
 
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Ground, Pose, Scene};
-use centrode_core::model::{self, Arc};
+use centrode_core::model::{self, Arc, Configuration};
 use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
@@ -31,7 +32,7 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
     let palette = &options.palette;
     let place = run.place(time);
     let (shape, truth) = (run.shape(place), run.truth(place));
-    let configuration = run.recording.entries[place].configuration;
+    let configuration = run.commanded(place);
     let held = truth.is_some_and(|truth| truth.held.is_some());
     let (sizes, length) = (Proportions::of(run), run.plan.segment().length);
     let delta = configuration.delta() as f32;
@@ -70,13 +71,31 @@ pub fn home_camera(run: &Run) -> Camera {
     let motion = &run.plan.scenario().motion;
     let sizes = Proportions::of(run);
     let length = run.plan.segment().length;
-    let [start, end] = [motion.start, motion.finish].map(|time| run.recording.entries[run.place(time)].configuration);
+    let commanded = |time| run.recording.entries[run.place(time)].configuration;
+    let [start, end] =
+        if run.is_recorded() { spanned(run) } else { [commanded(motion.start), commanded(motion.finish)] };
     let bends = (0..=6).map(|i| start.bend() + (end.bend() - start.bend()) * f64::from(i) / 6.0);
     let tips = bends.map(|bend| scene_pose(&Arc { length, configuration: start.with_bend(bend) }.pose(length)));
     let points: Vec<Vec3> = tips.flat_map(|tip| sizes.outline(&tip).collect::<Vec<_>>()).collect();
     // A segment that bends the other way is seen from the other side: it bends to the right in the picture.
     let back = if start.bend() + end.bend() < 0.0 { PI } else { 0.0 };
-    Camera::framing(&points, YAW - motion.delta as f32 + back, PITCH, ASPECT, ROOM)
+    Camera::framing(&points, YAW - start.delta() as f32 + back, PITCH, ASPECT, ROOM)
+}
+
+/// Of a log: the configurations between which it bends, the straighter one first.
+fn spanned(run: &Run) -> [Configuration; 2] {
+    let places = track::looked(run.len(), 256).map(|place| run.commanded(place));
+    let [first, mut least, mut most] = [run.commanded(0); 3];
+    for configuration in places {
+        if configuration.bend() < least.bend() {
+            least = configuration;
+        }
+        if configuration.bend() > most.bend() {
+            most = configuration;
+        }
+    }
+    let [a, b] = [least, most].map(|configuration| first.with_bend(configuration.bend()));
+    if a.bend().abs() > b.bend().abs() { [b, a] } else { [a, b] }
 }
 
 /// Direction of the home view. Straight at the bending plane the screw axes would be points.

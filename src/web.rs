@@ -3,10 +3,13 @@
 //! The page (`index.html` and `web/loader.js`) owns the document; this file only calls the hooks that it was given.
 //! Nothing starts by itself: a worker may import the same module and use the exported functions alone.
 
+mod logs;
+mod messages;
 mod outside;
 mod widgets;
 mod worker;
 
+use crate::app::embed::Embed;
 use crate::app::stages::tuner::Helper;
 use crate::app::{App, Host};
 use centrode_core::run::simulate;
@@ -20,7 +23,7 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment }`.
+    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment, embed, hosted }`.
     pub type Options;
     /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
     #[wasm_bindgen(method, getter)]
@@ -40,6 +43,12 @@ extern "C" {
     /// The fragment of the address, without `#`.
     #[wasm_bindgen(method, getter)]
     fn fragment(this: &Options) -> String;
+    /// What of the page is shown, by the name of an `app::embed::Embed`; anything else for all of it.
+    #[wasm_bindgen(method, getter)]
+    fn embed(this: &Options) -> String;
+    /// Whether a host page listens to [`Hooks::post`].
+    #[wasm_bindgen(method, getter)]
+    fn hosted(this: &Options) -> bool;
 
     /// What the page wants to hear of.
     pub type Hooks;
@@ -52,12 +61,30 @@ extern "C" {
     /// The address has this fragment from now on; whether one can go back to what was before.
     #[wasm_bindgen(method)]
     fn address(this: &Hooks, fragment: &str, step: bool);
-    /// A file is to be saved.
+    /// A file of a kind (as MIME has it) is to be saved.
     #[wasm_bindgen(method)]
-    fn save(this: &Hooks, name: &str, text: &str);
+    fn save(this: &Hooks, name: &str, kind: &str, bytes: &[u8]);
+    /// An SVG is to be saved as PNG, `scale` pixels to a point, with both weights of the page's font; see [`outside::save_failed`].
+    #[wasm_bindgen(method)]
+    fn picture(this: &Hooks, name: &str, svg: &str, scale: u32, regular: &[u8], strong: &[u8]);
+    /// A picture is to be saved as PNG: rows from the top, red, green, blue and alpha of each pixel.
+    #[wasm_bindgen(method)]
+    fn pixels(this: &Hooks, name: &str, width: u32, height: u32, rgba: &[u8]);
     /// The person is to choose a file, see [`outside::file_opened`].
     #[wasm_bindgen(method)]
     fn choose(this: &Hooks);
+    /// The host page is to be told this, JSON.
+    #[wasm_bindgen(method)]
+    fn post(this: &Hooks, json: &str);
+    /// The person is to choose a log, see [`logs::log_chosen`].
+    #[wasm_bindgen(method, js_name = chooseLog)]
+    fn choose_log(this: &Hooks);
+    /// A log is to be read by the worker (JSON), or none any more.
+    #[wasm_bindgen(method, js_name = readLog)]
+    fn read_log(this: &Hooks, request: Option<String>);
+    /// The bytes of a log are wanted, see [`logs::log_fetched`].
+    #[wasm_bindgen(method, js_name = fetchLog)]
+    fn fetch_log(this: &Hooks, number: u32);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -102,11 +129,15 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
     };
     let helper = options.worker().then(|| Box::new(worker::Worker) as Box<dyn Helper>);
+    let log_helper = options.worker().then(|| Box::new(logs::Clerk) as Box<dyn Helper>);
     let host = Host {
+        log_helper,
         prefers_reduced_motion: options.reduced_motion(),
         helper,
         address: options.address(),
         fragment: options.fragment(),
+        embed: Embed::named(&options.embed()),
+        hosted: options.hosted(),
     };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));
@@ -185,9 +216,14 @@ struct Shell {
 }
 
 impl eframe::App for Shell {
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(&mut *self)
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         assert!(!FAIL.get(), "a test asked for this panic");
         outside::take_in(&mut self.app);
+        logs::take_in(&mut self.app);
         self.app.ui(ui);
         self.app.take_effects().into_iter().for_each(outside::hand_out);
         if TEST.get() {

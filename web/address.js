@@ -1,5 +1,7 @@
 // The fragment of the address, which says what the page shows.
 
+// The history of a frame is that of the page around it, where no step may be added.
+const FRAMED = window.parent !== window;
 // Browsers refuse more than about a hundred changes in half a minute.
 const APART_MS = 400;
 // One that refuses is asked again so much later, and so often.
@@ -16,9 +18,11 @@ export function fragment() {
   return location.href.split("#").slice(1).join("#");
 }
 
-/// The address without its fragment.
+/// The address of the whole page, without its fragment and what is said for a frame alone.
 export function address() {
-  return location.href.split("#", 1)[0];
+  const [page, query] = location.href.split("#", 1)[0].split(/\?(.*)/s);
+  const kept = (query ?? "").split("&").filter((part) => part && !/^(embed|origins)(=|$)/.test(part));
+  return kept.length > 0 ? `${page}?${kept.join("&")}` : page;
 }
 
 function write(text, step) {
@@ -49,7 +53,7 @@ function flush() {
 
 /// The address has this fragment from now on; with `step`, one can go back to what it was before.
 export function tell(text, step) {
-  if (step) {
+  if (step && !FRAMED) {
     flush();
     write(text, true);
   } else if (waiting === null && performance.now() - last >= APART_MS) {

@@ -1,13 +1,17 @@
 // Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
 import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
-import { acceptDrops, choose, save } from "./files.js";
+import { passThrough } from "./embed.js";
+import { acceptDrops, choose, chooseLog, picture, pixels, save } from "./files.js";
+import { logs } from "./logs.js";
+import { messages } from "./messages.js";
 import { mirror } from "./mirror.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { readQuery } from "./query.js";
 import { studies } from "./studies.js";
 
 const { settings, notices } = readQuery(location.search);
+const host = messages(settings.origins);
 let failed = false;
 
 function fail(show, ...args) {
@@ -15,6 +19,7 @@ function fail(show, ...args) {
   if (failed) return;
   failed = true;
   show(...args);
+  host?.fail(document.querySelector(`#${document.documentElement.dataset.page} h1`).textContent, args[0]);
 }
 
 addEventListener("error", (event) => {
@@ -40,9 +45,15 @@ const hooks = {
   lost: (message) => fail(showLost, message),
   address: tell,
   save,
+  post: (json) => host?.post(JSON.parse(json)),
   // Set once the program is there.
   choose: () => {},
+  picture: () => {},
+  pixels: () => {},
   study: () => {},
+  chooseLog: () => {},
+  readLog: () => {},
+  fetchLog: () => {},
 };
 
 /// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
@@ -68,6 +79,8 @@ async function startOnSome(core) {
       worker: settings.worker === "auto",
       address: address(),
       fragment: fragment(),
+      embed: settings.embed,
+      hosted: host !== null,
     };
     try {
       const used = await core.start(canvas, options, hooks);
@@ -85,17 +98,26 @@ async function startOnSome(core) {
 }
 
 async function main() {
+  passThrough();
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(new URL("./centrode_bg.wasm", import.meta.url), Number(script.dataset.wasmBytes), showProgress);
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
-  hooks.choose = () => choose(core);
-  acceptDrops(core);
+  const kept = logs(core, module);
+  hooks.choose = () => choose(core, kept);
+  hooks.chooseLog = () => chooseLog(core, kept);
+  hooks.readLog = kept.read;
+  hooks.fetchLog = kept.fetchBytes;
+  hooks.picture = (...drawing) => picture(core, ...drawing);
+  hooks.pixels = (...image) => pixels(core, ...image);
+  acceptDrops(core, kept);
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
-  if (await startOnSome(core)) showNotices(notices, () => document.getElementById("canvas").focus());
+  if (!(await startOnSome(core))) return;
+  host?.start(core);
+  showNotices(notices, () => document.getElementById("canvas").focus());
 }
 
 main().catch((error) => fail(showFailure, describe(error)));

@@ -20,11 +20,13 @@ function set(key, value) {
 }
 
 export const mirror = {
-  /// `{ state, time, detection_time, summary, tuning }` as `App::report` gives it.
-  report({ state, time, detection_time: detectionTime, summary, tuning }) {
+  /// `{ state, time, detection_time, location, summary, tuning, log }` as `App::report` gives it.
+  report({ state, time, detection_time: detectionTime, location, summary, tuning, log }) {
     set("state", state);
     set("time", time);
     set("detectionTime", detectionTime);
+    set("location", location);
+    set("log", log);
     set("tuning", tuning && JSON.stringify(tuning));
     wanted = summary ?? "";
     // A live region that changes with every frame would never let a reader finish a sentence.

@@ -9,6 +9,7 @@ pub mod alarm;
 pub mod evidence;
 pub mod filter;
 pub mod judge;
+pub mod outlook;
 pub mod statistic;
 
 pub use alarm::{Crossing, Detection, Event};

@@ -1,16 +1,16 @@
 //! A simulated experiment and what is concluded from it: at once, or sample by sample.
 
 mod replay;
+mod simulation;
 
 pub use replay::Replay;
+pub use simulation::Simulation;
 
-use crate::detect::alarm::Alarms;
-use crate::detect::evidence::Observer;
 use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
 use crate::model::Vec3;
 use crate::plant::Shape;
-use crate::record::{Entry, Recorder, Recording, Truth};
+use crate::record::{Entry, Recording, Truth};
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
 use crate::sensors::tracker::Reading;
@@ -111,86 +111,6 @@ pub const CHANNELS: &[Channel] = channels! {
     "bound_independent", "N·m", x => x.judgement.independent_bound;
     "bound_shape", "N·m", x => x.judgement.shape_bound;
 };
-
-/// The experiment as a stream: what it keeps is one filter length of readings, the events, and the crossings unless they are taken.
-#[derive(Debug, Clone)]
-pub struct Simulation<'a> {
-    recorder: Recorder<'a>,
-    observer: Observer,
-    alarms: Alarms,
-    contact_time: Option<f64>,
-    /// What was stored last.
-    entry: Option<Entry>,
-}
-
-impl<'a> Simulation<'a> {
-    /// At rest before the first sample.
-    #[must_use]
-    pub fn new(plan: &'a Plan) -> Self {
-        let settings = Settings::of(plan);
-        Self {
-            recorder: Recorder::new(plan),
-            observer: Observer::new(&settings),
-            alarms: Alarms::new(&settings),
-            contact_time: None,
-            entry: None,
-        }
-    }
-
-    /// What the loop stored at the last sample; none before the first.
-    #[must_use]
-    pub fn entry(&self) -> Option<&Entry> {
-        self.entry.as_ref()
-    }
-
-    /// Threshold crossings so far, in order.
-    #[must_use]
-    pub fn crossings(&self) -> &[Crossing] {
-        self.alarms.crossings()
-    }
-
-    /// Takes the crossings so far out, so that a long run does not gather them.
-    pub fn take_crossings(&mut self) -> Vec<Crossing> {
-        self.alarms.take_crossings()
-    }
-
-    /// Events so far, in the order in which they were raised.
-    #[must_use]
-    pub fn events(&self) -> &[Event] {
-        self.alarms.events()
-    }
-
-    /// The first detection so far.
-    #[must_use]
-    pub fn detection(&self) -> Option<Detection> {
-        Detection::first(self.events())
-    }
-
-    /// Truth: time of the first sample in contact so far, s.
-    #[must_use]
-    pub fn contact_time(&self) -> Option<f64> {
-        self.contact_time
-    }
-}
-
-impl Iterator for Simulation<'_> {
-    type Item = Sample;
-
-    fn next(&mut self) -> Option<Sample> {
-        let (entry, truth) = self.recorder.next()?;
-        let evidence = self.observer.observe(&entry);
-        self.alarms.look(entry.time, &entry.configuration, &evidence.judgement);
-        if truth.held.is_some() && self.contact_time.is_none() {
-            self.contact_time = Some(entry.time);
-        }
-        self.entry = Some(entry);
-        Some(Sample::new(&entry, Some(&truth), &evidence))
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        self.recorder.size_hint()
-    }
-}
 
 /// What changed when a run was brought up to date, the first of the stages that were made anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -322,13 +242,13 @@ impl Run {
         self.recording.truth.as_ref().and_then(|truth| truth.get(k))
     }
 
-    /// The shape of the backbone at a place in the run; where the truth is not known, the free shape commanded.
+    /// The shape of the backbone at a place in the run; where the truth is not known, the free shape last commanded.
     ///
     /// # Panics
     /// When `k` is not below [`Run::len`].
     #[must_use]
     pub fn shape(&self, k: usize) -> Shape {
-        let free = || Shape::Free(self.plan.segment().arc(self.recording.entries[k].configuration));
+        let free = || Shape::Free(self.plan.segment().arc(self.commanded(k)));
         self.truth(k).map_or_else(free, |truth| truth.shape.clone().detailed())
     }
 

@@ -1,8 +1,9 @@
 //! Carrying out commands: the only place where state changes, besides the passing of time.
 
 use super::App;
-use crate::app::command::Command;
+use crate::app::command::{Command, Mark};
 use crate::app::controls::control::Control;
+use crate::app::panels::save;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::words::refusal;
 use crate::app::{controls, memo, state};
@@ -87,11 +88,21 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::Log(wish) => self.wish_of_log(wish),
                 Command::Share(what) => self.share(ctx, what),
+                Command::Mark(mark, time) => self.mark(mark, time),
+                Command::MarkHere(mark) => self.mark(mark, Some(self.cursor())),
+                Command::CopyMarks => self.copy_marks(ctx),
+                Command::Save(subject, format) => self.save(subject, format),
+                Command::OfferToSave(subject) => save::offer(ctx, subject),
                 Command::CloseNotice => self.sharing.notice = None,
                 Command::CopyNotice => self.copy_notice(ctx),
             }
         }
+    }
+
+    fn mark(&mut self, mark: Mark, time: Option<f64>) {
+        self.state.marks[mark as usize] = time.filter(|time| time.is_finite()).map(|time| time.clamp(0.0, self.end()));
     }
 
     /// Takes what a study has shown.
@@ -117,10 +128,10 @@ impl App {
         self.state.time = state::lead_in(&self.state.scenario);
     }
 
-    fn toggle_play(&mut self) {
+    pub(super) fn toggle_play(&mut self) {
         self.state.playing = !self.state.playing;
         if self.state.playing && self.cursor() >= self.end() {
-            self.state.time = state::lead_in(self.memo.run().plan.scenario());
+            self.state.time = self.memo.lead_in();
         }
     }
 
@@ -155,7 +166,7 @@ impl App {
     }
 
     /// Keeps the values of controls that a change switches off.
-    fn remember(&mut self, next: &Scenario) {
+    pub(super) fn remember(&mut self, next: &Scenario) {
         for control in controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|c| c.has_off()) {
             if let (Some(value), None) = (control.value(&self.state.scenario), control.value(next)) {
                 self.state.remembered.insert(control.key.into(), value);

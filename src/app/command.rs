@@ -1,6 +1,8 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::log::form::Edit;
+use crate::app::saving::{Format, Subject};
 use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
 use centrode_core::scenario::Threshold;
@@ -18,6 +20,38 @@ pub enum Share {
     Save,
     /// Choose a file with a scenario, and open it.
     Open,
+    /// Open what a frame shows in a page of its own.
+    OwnPage,
+    /// Choose a log, and show it in place of the simulation.
+    OpenLog,
+}
+
+/// One of two times that are held against each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mark {
+    /// The first.
+    A,
+    /// The second.
+    B,
+}
+
+/// What is wished of a log.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LogWish {
+    /// Tell how it was read.
+    Report,
+    /// Go back to the simulation.
+    Close,
+    /// Stop reading it.
+    Cancel,
+    /// Say how it is to be read.
+    Form,
+    /// Change what is said.
+    Edit(Edit),
+    /// Read it so.
+    Read,
+    /// Leave it as it is.
+    LeaveForm,
 }
 
 /// One wish.
@@ -91,6 +125,18 @@ pub enum Command {
     ToggleHelp,
     /// Hand something out, or ask for something to come in.
     Share(Share),
+    /// Put a mark at a time, s, or take it away.
+    Mark(Mark, Option<f64>),
+    /// Put a mark where the cursor is.
+    MarkHere(Mark),
+    /// Copy both marked times and what the plots show there.
+    CopyMarks,
+    /// Save something as a file.
+    Save(Subject, Format),
+    /// Open the menu by which something is saved.
+    OfferToSave(Subject),
+    /// Do something with a log.
+    Log(LogWish),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

@@ -17,9 +17,11 @@ use crate::app::controls::control::Group;
 use crate::app::controls::table::GROUPS;
 use crate::app::fonts;
 use crate::app::layout;
+use crate::app::memo::recorded::Recorded;
 use crate::app::state::State;
 use crate::app::theme::Theme;
 use crate::app::widgets::{icon, text};
+use crate::app::words::log;
 use centrode_core::scenario::Scenario;
 use row::Context;
 
@@ -33,6 +35,8 @@ pub struct Inputs<'a> {
     pub notes: &'a BTreeMap<&'static str, String>,
     /// Why the scenario as a whole is not the one that was run.
     pub refusal: Option<String>,
+    /// The log in place of a simulation.
+    pub log: Option<&'a Recorded>,
     /// Whether rows are to be large enough for a finger.
     pub touch: bool,
 }
@@ -75,14 +79,19 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
         let scenario = &inputs.state.scenario;
         let (base, touch) = (inputs.base, inputs.touch);
         let note = |key| inputs.notes.get(key).map(String::as_str);
+        let idle = |key: &str| inputs.log.is_some_and(|recorded| log::idle(key, recorded));
+        if let Some(note) = inputs.log.and_then(|_| idle_note(group, &idle)) {
+            ui.add(egui::Label::new(egui::RichText::new(note).size(11.5).color(theme.dim)).wrap());
+            ui.add_space(4.0);
+        }
         for control in group.controls {
             let remembered = inputs.state.otherwise(control, base);
             let context = Context { scenario, base, note: note(control.key), remembered, touch };
-            row::number(ui, control, &context, out);
+            ui.add_enabled_ui(!idle(control.key), |ui| row::number(ui, control, &context, out));
         }
         for choice in group.choices {
             let context = Context { scenario, base, note: note(choice.of.path), remembered: None, touch };
-            row::choice(ui, choice, &context, out);
+            ui.add_enabled_ui(!idle(choice.of.path), |ui| row::choice(ui, choice, &context, out));
         }
         if !group.note.is_empty() {
             ui.add_space(6.0);
@@ -91,6 +100,17 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
             ui.add_space(8.0);
         }
     });
+}
+
+/// What is said of a group while a log is shown.
+fn idle_note(group: &Group, idle: &dyn Fn(&str) -> bool) -> Option<&'static str> {
+    let keys = group.controls.iter().map(|control| control.key);
+    let mut keys = keys.chain(group.choices.iter().map(|choice| choice.of.path)).map(idle);
+    match (keys.clone().any(|idle| idle), keys.all(|idle| idle)) {
+        (false, _) => None,
+        (true, true) => Some("These make simulations. They do not change the log that is shown."),
+        (true, false) => Some("What is dimmed makes simulations. It does not change the log that is shown."),
+    }
 }
 
 fn reset_all(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {

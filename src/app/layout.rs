@@ -1,7 +1,8 @@
-//! Where everything is, on a desk, a tablet and a phone.
+//! Where everything is, on a desk, a tablet and a phone, and in the frame of another page.
 
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
+use crate::app::embed::{Embed, TOOL};
 use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
@@ -10,15 +11,15 @@ use crate::app::theme::GAP;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layout {
     /// Title and presets.
-    pub title: Rect,
+    pub title: Option<Rect>,
     /// The bar of views.
-    pub views: Rect,
-    /// Sharing, theme, help and, where they are in a sheet, controls.
+    pub views: Option<Rect>,
+    /// Sharing, theme, help and, where they are in a sheet, controls; in a frame the way out of it.
     pub tools: Rect,
-    /// 3D view.
-    pub view: Rect,
+    /// 3D view, or what else stands on the stage.
+    pub view: Option<Rect>,
     /// Playback.
-    pub transport: Rect,
+    pub transport: Option<Rect>,
     /// Controls; on a small screen the sheet, and none while it is closed.
     pub controls: Option<Rect>,
     /// Tabs and below them one of the three views that follow.
@@ -69,39 +70,96 @@ fn inner(page: Rect) -> Cut {
 
 /// What stands at the top.
 struct Bar {
-    title: Rect,
+    title: Option<Rect>,
     views: Rect,
     tools: Rect,
 }
 
 impl Bar {
-    /// All in one row; the title above what is so wide.
-    fn in_one(row: Rect, title: f32, sheet: bool) -> Self {
+    /// All in one row; the title above what is so wide. In a frame there is no title.
+    fn in_one(row: Rect, title: f32, sheet: bool, framed: bool) -> Self {
         let mut row = Cut(row);
+        if framed {
+            let tools = row.right(if sheet { 2.0 * TOOL } else { TOOL });
+            return Self { title: None, views: row.0, tools };
+        }
         let tools = row.right(tools_width(sheet));
         let title = row.left(title);
-        Self { title, views: row.0, tools }
+        Self { title: Some(title), views: row.0, tools }
     }
 }
 
 impl Layout {
-    /// Lays out a page of a size; `sheet` is how far the sheet of controls is open, 0 to 1.
+    /// Lays out a page of a size, or what of it is shown in a frame; `sheet` is how far the sheet of controls is open, 0 to 1.
     #[must_use]
-    pub fn new(page: Rect, sheet: f32) -> Self {
+    pub fn new(page: Rect, sheet: f32, embed: Option<Embed>) -> Self {
+        match embed {
+            None => Self::whole(page, sheet, false),
+            Some(Embed::All) => Self::whole(page, sheet, true),
+            Some(Embed::Tuning) => Self::alone(page),
+            Some(Embed::Robot) => {
+                let (whole, rest) = Self::played(page);
+                Self { view: Some(rest), ..whole }
+            }
+            Some(Embed::Plots) => {
+                let (whole, rest) = Self::played(page);
+                Self { plots: Some(rest), ..whole }
+            }
+        }
+    }
+
+    fn whole(page: Rect, sheet: f32, framed: bool) -> Self {
         let Vec2 { x: width, y: height } = page.size();
         if height < 560.0 || (width < 1140.0 && height < 640.0) {
-            if width < 560.0 { Self::phone(page, sheet) } else { Self::low(page, sheet) }
+            if width < 560.0 { Self::phone(page, sheet, framed) } else { Self::low(page, sheet, framed) }
         } else if width <= 700.0 {
-            Self::phone(page, sheet)
+            Self::phone(page, sheet, framed)
         } else if width < 1140.0 {
-            Self::tablet(page)
+            Self::tablet(page, framed)
         } else {
-            Self::desk(page)
+            Self::desk(page, framed)
+        }
+    }
+
+    /// What stands on the stage, and a foot.
+    fn alone(page: Rect) -> Self {
+        let mut rest = Cut(page.shrink(0.5 * GAP));
+        let tools = rest.bottom(34.0);
+        Self { view: Some(rest.0), ..Self::tools(tools) }
+    }
+
+    /// Playback at the bottom with the tools beside it, and what is left for one view. A frame too small for that has no playback,
+    /// and the tools lie over the view.
+    fn played(page: Rect) -> (Self, Rect) {
+        let mut rest = Cut(page.shrink(0.5 * GAP));
+        if page.height() < 240.0 || page.width() < 300.0 {
+            let corner = vec2(TOOL, TOOL).min(rest.0.size());
+            return (Self::tools(Rect::from_min_size(rest.0.max - corner, corner)), rest.0);
+        }
+        let mut foot = Cut(rest.bottom(if rest.0.width() < 620.0 { TALL } else { FLAT }));
+        let tools = foot.right(TOOL);
+        (Self { transport: Some(foot.0), ..Self::tools(tools) }, rest.0)
+    }
+
+    /// Nothing but the tools.
+    fn tools(tools: Rect) -> Self {
+        Self {
+            title: None,
+            views: None,
+            tools,
+            view: None,
+            transport: None,
+            controls: None,
+            tabbed: None,
+            plane: None,
+            readout: None,
+            plots: None,
+            sheet: false,
         }
     }
 
     /// Controls at the left, 3D in the middle, plane and readout at the right, plots below.
-    fn desk(page: Rect) -> Self {
+    fn desk(page: Rect, framed: bool) -> Self {
         let mut rest = inner(page);
         let bar = rest.top(46.0);
         let controls = rest.left(306.0);
@@ -114,44 +172,37 @@ impl Layout {
             plane: Some(side.0),
             readout: Some(readout),
             plots: Some(plots),
-            ..Self::plain(Bar::in_one(bar, controls.width(), false), rest.0, transport)
+            ..Self::plain(Bar::in_one(bar, controls.width(), false, framed), rest.0, transport)
         }
     }
 
     /// Controls at the left; 3D, playback and tabs above each other.
-    fn tablet(page: Rect) -> Self {
+    fn tablet(page: Rect, framed: bool) -> Self {
         let mut rest = inner(page);
         let bar = rest.top(46.0);
         let controls = rest.left(276.0);
         let tabbed = rest.bottom((page.height() * 0.43).max(290.0));
         let transport = rest.bottom(if rest.0.width() < 560.0 { TALL } else { FLAT });
-        let bar = Bar::in_one(bar, controls.width(), false);
+        let bar = Bar::in_one(bar, controls.width(), false, framed);
         Self { controls: Some(controls), tabbed: Some(tabbed), ..Self::plain(bar, rest.0, transport) }
     }
 
     /// No more than the bar, 3D and playback.
     fn plain(Bar { title, views, tools }: Bar, view: Rect, transport: Rect) -> Self {
-        Self {
-            title,
-            views,
-            tools,
-            view,
-            transport,
-            controls: None,
-            tabbed: None,
-            plane: None,
-            readout: None,
-            plots: None,
-            sheet: false,
-        }
+        Self { title, views: Some(views), view: Some(view), transport: Some(transport), ..Self::tools(tools) }
     }
 
     /// Views and 3D on top, tabs or the sheet below, playback under the thumb.
-    fn phone(page: Rect, sheet: f32) -> Self {
+    fn phone(page: Rect, sheet: f32, framed: bool) -> Self {
         let mut rest = inner(page);
-        let mut bar = Cut(rest.top(42.0));
-        let tools = bar.right(tools_width(true));
-        let bar = Bar { title: bar.0, views: rest.top(38.0), tools };
+        let row = rest.top(42.0);
+        let bar = if framed {
+            Bar::in_one(row, 0.0, true, true)
+        } else {
+            let mut row = Cut(row);
+            let tools = row.right(tools_width(true));
+            Bar { title: Some(row.0), views: rest.top(38.0), tools }
+        };
         let transport = rest.bottom(TALL);
         let share = egui::lerp(0.52..=0.36, sheet);
         let view = rest.top(rest.0.height() * share);
@@ -159,13 +210,13 @@ impl Layout {
     }
 
     /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
-    fn low(page: Rect, sheet: f32) -> Self {
+    fn low(page: Rect, sheet: f32, framed: bool) -> Self {
         let mut rest = inner(page);
         let bar = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
         let title = (0.32 * bar.width()).clamp(150.0, 300.0);
-        Self::plain(Bar::in_one(bar, title, true), rest.0, transport).with_lower(side, sheet)
+        Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport).with_lower(side, sheet)
     }
 
     fn with_lower(self, place: Rect, sheet: f32) -> Self {
@@ -177,18 +228,18 @@ impl Layout {
     #[must_use]
     pub fn stage(&self) -> Rect {
         let tabbed = self.tabbed.filter(|_| self.sheet);
-        [self.plane, self.readout, tabbed].into_iter().flatten().fold(self.view, Rect::union)
+        [self.view, self.plane, self.readout, tabbed].into_iter().flatten().fold(Rect::NOTHING, Rect::union)
     }
 
     /// Every rectangle there is.
     #[must_use]
     pub fn all(&self) -> Vec<Rect> {
         [
-            Some(self.title),
-            Some(self.views),
+            self.title,
+            self.views,
             Some(self.tools),
-            Some(self.view),
-            Some(self.transport),
+            self.view,
+            self.transport,
             self.controls,
             self.tabbed,
             self.plane,
@@ -249,7 +300,7 @@ mod tests {
         ] {
             let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
             for sheet in [0.0, 1.0] {
-                let rects = Layout::new(page, sheet).all();
+                let rects = Layout::new(page, sheet, None).all();
                 for (i, rect) in rects.iter().enumerate() {
                     assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
                     // The first three are bars.
@@ -261,6 +312,41 @@ mod tests {
                             "{width}×{height}: {rect:?} {other:?}"
                         );
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_frame_shows_what_was_asked_for_at_any_size() {
+        for (width, height) in
+            [(640.0, 360.0), (390.0, 844.0), (1440.0, 900.0), (320.0, 240.0), (300.0, 150.0), (120.0, 60.0)]
+        {
+            let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
+            for embed in Embed::ALL {
+                let layout = Layout::new(page, 0.0, Some(embed));
+                let small = height < 240.0;
+                assert_eq!(layout.title, None, "{embed:?}");
+                if embed == Embed::All {
+                    assert!(layout.views.is_some() && layout.view.is_some() && layout.transport.is_some());
+                    continue;
+                }
+                assert!(layout.controls.is_none() && layout.tabbed.is_none() && layout.plane.is_none());
+                assert_eq!(layout.plots.is_some(), embed == Embed::Plots);
+                assert_eq!(layout.view.is_some(), embed != Embed::Plots);
+                assert_eq!(
+                    layout.transport.is_some(),
+                    embed != Embed::Tuning && !small,
+                    "{embed:?} at {width}×{height}"
+                );
+                let rects = layout.all();
+                for (i, rect) in rects.iter().enumerate() {
+                    assert!(
+                        page.contains_rect(*rect) && !rect.is_negative(),
+                        "{embed:?} at {width}×{height}: {rect:?}"
+                    );
+                    let apart = |other: &Rect| small || !rect.shrink(0.5).intersects(other.shrink(0.5));
+                    assert!(rects[..i].iter().all(apart), "{embed:?} at {width}×{height}: {rect:?}");
                 }
             }
         }

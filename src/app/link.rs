@@ -9,11 +9,14 @@ use egui::Ui;
 
 use super::App;
 use crate::app::command::Share;
+use crate::app::embed::Embed;
+use crate::app::log::file::{File, is_log};
 use crate::app::memo;
 use crate::app::panels::notice::Notice;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::state::{self, State, Tuning};
 use crate::app::words::{self, refusal};
+use crate::render::Pixels;
 use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{Scenario, ScenarioError};
@@ -38,21 +41,45 @@ pub enum Effect {
     Save {
         /// Its name.
         name: String,
+        /// What kind of file it is, as browsers call it.
+        kind: &'static str,
         /// What it holds.
-        text: String,
+        bytes: Vec<u8>,
+    },
+    /// A drawing is to be saved as pixels.
+    Picture {
+        /// Name of the file.
+        name: String,
+        /// The drawing, which names the page's font.
+        svg: String,
+        /// Pixels to a point.
+        scale: u32,
+    },
+    /// A picture is to be saved as PNG.
+    Pixels {
+        /// Name of the file.
+        name: String,
+        /// The picture.
+        pixels: Pixels,
     },
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
+    /// The host page is to be told this, JSON; see [`App::request`].
+    Post(String),
+    /// The person is to choose a log, which comes in by [`App::log_chosen`].
+    ChooseLog,
+    /// The bytes of a file of this number are wanted, by [`App::log_fetched`].
+    Fetch(u32),
 }
 
 /// What is known of the world outside.
 #[derive(Debug)]
 pub struct Sharing {
     /// The page's address, without its fragment.
-    address: String,
+    pub(super) address: String,
     /// What the address says, as far as this page knows.
     told: (String, Scenario, Page),
-    effects: Vec<Effect>,
+    pub(super) effects: Vec<Effect>,
     /// What lies over the page to be read.
     pub(super) notice: Option<Notice>,
     /// Said in passing, and until when (s).
@@ -90,8 +117,17 @@ impl Sharing {
         self.said.as_ref().map(|(text, _)| text.as_str())
     }
 
-    fn say(&mut self, text: impl Into<String>) {
+    pub(super) fn push(&mut self, effect: Effect) {
+        self.effects.push(effect);
+    }
+
+    pub(super) fn say(&mut self, text: impl Into<String>) {
         self.said = Some((text.into(), None));
+    }
+
+    /// Asks something of the surroundings.
+    pub(super) fn hand_out(&mut self, effect: Effect) {
+        self.effects.push(effect);
     }
 
     fn address(&mut self, fragment: String, step: bool) {
@@ -105,10 +141,11 @@ impl Sharing {
 }
 
 /// What a link says of the page in a state with its cursor (s).
-fn page(state: &State, cursor: f64) -> Page {
+pub(super) fn page(state: &State, cursor: f64) -> Page {
     Page {
         view: state.stage.key(),
-        time: (!state.playing).then_some((cursor * 1e4).round() / 1e4),
+        // A log may be longer than the scenario, whose address this is.
+        time: (!state.playing).then_some((cursor.min(state.scenario.motion.end) * 1e4).round() / 1e4),
         speed: state.speed,
         looping: state.looping,
         rule: state.tuning.rule.name(),
@@ -150,7 +187,7 @@ impl App {
         self.sharing.told = self.current();
     }
 
-    fn load_link(&mut self, link: &Link) {
+    pub(super) fn load_link(&mut self, link: &Link) {
         let changed = link.preset().name != self.state.preset || *link.scenario() != self.state.scenario;
         if changed {
             self.state.preset = link.preset().name.into();
@@ -162,6 +199,9 @@ impl App {
         }
         let Page { view, time: _, speed, looping, rule, false_alarms, repeats } = link.page;
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
+        if let Some(only) = self.embed.and_then(Embed::stage) {
+            self.state.stage = only;
+        }
         if self.state.stage.section() == Section::Paper {
             self.state.paper = self.state.stage;
         }
@@ -173,6 +213,10 @@ impl App {
 
     /// A file has come in, chosen or dropped; or why it could not be read.
     pub fn opened(&mut self, name: &str, bytes: Result<Vec<u8>, String>) {
+        let bytes = match bytes {
+            Ok(bytes) if is_log(name, &bytes) => return self.log_chosen(File::here(name, bytes)),
+            bytes => bytes,
+        };
         let read = bytes.and_then(|bytes| {
             if bytes.len() > MAX_FILE {
                 return Err("It is larger than 1 MiB, so it is no scenario".into());
@@ -202,7 +246,7 @@ impl App {
     }
 
     /// The link to what the page shows.
-    fn link(&self) -> Result<Link, ScenarioError> {
+    pub(super) fn link(&self) -> Result<Link, ScenarioError> {
         Link::new(self.state.preset(), &self.state.scenario, page(&self.state, self.cursor()))
     }
 
@@ -238,7 +282,7 @@ impl App {
             Share::CopyLink => {
                 let here = |mut link: Link| {
                     // What one sees, also while it moves.
-                    link.page.time = Some((self.cursor() * 1e4).round() / 1e4);
+                    link.page.time = Some((self.cursor().min(self.state.scenario.motion.end) * 1e4).round() / 1e4);
                     if self.sharing.address.is_empty() {
                         return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
                     }
@@ -262,9 +306,18 @@ impl App {
             Share::Save => {
                 let name = format!("centrode-{}.toml", self.state.preset);
                 let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
-                self.sharing.effects.push(Effect::Save { name, text });
+                self.sharing.effects.push(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
+            Share::OwnPage => match self
+                .link()
+                .map_err(|why| why.to_string())
+                .and_then(|link| link.at(&self.sharing.address).map_err(|why| why.to_string()))
+            {
+                Ok(address) => ctx.open_url(egui::OpenUrl::new_tab(address)),
+                Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
+            },
             Share::Open => self.sharing.effects.push(Effect::Choose),
+            Share::OpenLog => self.sharing.effects.push(Effect::ChooseLog),
         }
     }
 
@@ -278,7 +331,8 @@ impl App {
             }
             None => self.link()?,
         };
-        Ok(link.command())
+        let of_log = self.log_command(&link).filter(|_| self.state.stage == Stage::Robot);
+        Ok(of_log.unwrap_or_else(|| link.command()))
     }
 
     pub(super) fn copy_notice(&mut self, ctx: &egui::Context) {

@@ -1,8 +1,16 @@
-//! Scenario → recording → conclusions → loci, each made anew when what it depends on changes.
+//! Scenario, or a log → recording → conclusions → loci, each made anew when what it depends on changes.
 
+pub mod recorded;
+
+use std::rc::Rc;
+
+use crate::app::state;
 use crate::show::track::Trace;
+use centrode_core::record::log::{Log, LogError, Setup};
 use centrode_core::run::{Anew, Run, at_most, simulate};
 use centrode_core::scenario::{Plan, Scenario, ScenarioError};
+use centrode_core::study::course;
+use recorded::Recorded;
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
 pub const MAX_SAMPLES: usize = 200_000;
@@ -19,14 +27,27 @@ fn plan(scenario: &Scenario) -> Result<Plan, ScenarioError> {
     at_most(Plan::new(scenario)?, MAX_SAMPLES)
 }
 
-/// The last run that was possible, and why the wanted one is not.
+/// Why the wanted scenario is not the one that is shown.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// It cannot be.
+    Scenario(ScenarioError),
+    /// The log that is shown does not fit it.
+    Log(LogError),
+}
+
+/// The last run that was possible, simulated or of a log, and why the wanted one is not.
 #[derive(Debug)]
 pub struct Memo {
     wanted: Scenario,
+    /// The last scenario that was possible.
+    plan: Plan,
     run: Run,
+    /// The log in place of a simulation.
+    recorded: Option<Recorded>,
     trace: Trace,
     version: u64,
-    refusal: Option<ScenarioError>,
+    refusal: Option<Refusal>,
 }
 
 impl Memo {
@@ -37,7 +58,15 @@ impl Memo {
     #[must_use]
     pub fn new(scenario: &Scenario) -> Self {
         let run = simulate(&Scenario::default()).expect("the default scenario is possible");
-        let mut memo = Self { wanted: Scenario::default(), trace: Trace::new(&run), run, version: 0, refusal: None };
+        let mut memo = Self {
+            wanted: Scenario::default(),
+            plan: run.plan.clone(),
+            trace: Trace::new(&run),
+            run,
+            recorded: None,
+            version: 0,
+            refusal: None,
+        };
         memo.update(scenario);
         memo
     }
@@ -48,29 +77,82 @@ impl Memo {
             return false;
         }
         self.wanted = scenario.clone();
-        match plan(scenario) {
-            Ok(plan) => {
-                self.refusal = None;
-                let looks = |run: &Run| {
-                    let detection = &run.plan.scenario().detection;
-                    (detection.armed_from, detection.min_speed)
-                };
-                let before = looks(&self.run);
-                let anew = self.run.update(plan);
-                self.version += 1;
-                if anew > Anew::Events || looks(&self.run) != before {
-                    self.trace = Trace::new(&self.run);
-                }
-            }
-            Err(refusal) => self.refusal = Some(refusal),
-        }
+        self.refusal = self.follow().err();
         true
+    }
+
+    /// Runs or judges what is wanted.
+    fn follow(&mut self) -> Result<(), Refusal> {
+        let plan = plan(&self.wanted).map_err(Refusal::Scenario)?;
+        let looks = |run: &Run| {
+            let detection = &run.plan.scenario().detection;
+            (detection.armed_from, detection.min_speed)
+        };
+        let before = looks(&self.run);
+        let anew = match &self.recorded {
+            None => self.run.update(plan.clone()),
+            Some(recorded) if recorded.depends(&self.wanted) => {
+                let (recorded, run) = recorded.again(&self.wanted).map_err(Refusal::Log)?;
+                (self.recorded, self.run) = (Some(recorded), run);
+                Anew::Recording
+            }
+            Some(recorded) => self.run.update(recorded.plan(&self.wanted).map_err(Refusal::Scenario)?),
+        };
+        self.plan = plan;
+        self.version += 1;
+        if anew > Anew::Events || looks(&self.run) != before {
+            self.trace = Trace::new(&self.run);
+        }
+        Ok(())
+    }
+
+    /// Shows a log in place of the simulation.
+    ///
+    /// # Errors
+    /// When it does not fit the scenario; what is shown then stays.
+    pub fn open(&mut self, log: Rc<Log>, setup: Setup) -> Result<(), LogError> {
+        let (recorded, run) = Recorded::new(log, setup, self.plan.scenario())?;
+        self.recorded = Some(recorded);
+        self.show(run);
+        Ok(())
+    }
+
+    /// Goes back to the simulation.
+    pub fn close(&mut self) {
+        if self.recorded.take().is_some() {
+            self.show(Run::new(self.plan.clone()));
+        }
+    }
+
+    fn show(&mut self, run: Run) {
+        self.run = run;
+        self.trace = Trace::new(&self.run);
+        self.version += 1;
+        self.refusal = self.refusal.take().filter(|refusal| matches!(refusal, Refusal::Scenario(_)));
     }
 
     /// The last run that was possible.
     #[must_use]
     pub fn run(&self) -> &Run {
         &self.run
+    }
+
+    /// The log that it is of; none for a simulation.
+    #[must_use]
+    pub fn recorded(&self) -> Option<&Recorded> {
+        self.recorded.as_ref()
+    }
+
+    /// What is set, whether or not a log is shown: the last scenario that was possible.
+    #[must_use]
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Where playback opens and loops to, s.
+    #[must_use]
+    pub fn lead_in(&self) -> f64 {
+        if self.run.is_recorded() { self.run.sample(0).time } else { state::lead_in(self.plan.scenario()) }
     }
 
     /// A number that is another for every other run.
@@ -87,9 +169,15 @@ impl Memo {
 
     /// Why the wanted scenario is not the one that was run.
     #[must_use]
-    pub fn refusal(&self) -> Option<&ScenarioError> {
+    pub fn refusal(&self) -> Option<&Refusal> {
         self.refusal.as_ref()
     }
+}
+
+/// When a run ends, s.
+#[must_use]
+pub fn end(run: &Run) -> f64 {
+    if run.is_recorded() { course::end(run) } else { run.plan.scenario().motion.end }
 }
 
 #[cfg(test)]
@@ -104,7 +192,8 @@ mod tests {
         scenario.robot.length = -1.0;
         assert!(memo.update(&scenario));
         assert_eq!(memo.run().fingerprint(), before);
-        let message = memo.refusal().expect("refused").to_string();
+        let Some(Refusal::Scenario(refused)) = memo.refusal() else { panic!("{:?}", memo.refusal()) };
+        let message = refused.to_string();
         assert!(message.contains("robot.length") && message.contains("-1"), "{message}");
         assert!(memo.update(&Scenario::default()));
         assert_eq!(memo.refusal(), None);

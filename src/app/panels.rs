@@ -1,8 +1,11 @@
 //! The parts of the page.
 
 pub mod chip;
+pub mod columns;
+pub mod log;
 pub mod notice;
 pub mod readout;
+pub mod save;
 pub mod share;
 pub mod tabs;
 pub mod title;

@@ -14,6 +14,8 @@ use crate::app::charts::notation;
 use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use crate::app::stages::source::Source;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::stages::studies::{Found, Studies};
@@ -23,8 +25,8 @@ use crate::app::theme::Theme;
 use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
 use crate::app::words::refusal;
-use centrode_core::run::Run;
-use centrode_core::scenario::Scenario;
+use centrode_core::chart::Chart;
+use centrode_core::scenario::{Plan, Scenario};
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 use tuning::TuningState;
 
@@ -43,12 +45,22 @@ pub struct StageState {
     tuning: TuningState,
 }
 
+impl StageState {
+    /// The pictures of the tuning view in one chart, as they were last shown.
+    #[must_use]
+    pub fn tuning(&self, tuner: &Tuner) -> Option<Chart> {
+        tuning::chart(&self.tuning, tuner)
+    }
+}
+
 /// What the stage is drawn from.
 pub struct Inputs<'a> {
     /// What stands on it.
     pub stage: Stage,
-    /// The experiment on the page.
-    pub run: &'a Run,
+    /// What is set on the page.
+    pub plan: &'a Plan,
+    /// Whether a log is shown in place of its simulation.
+    pub log: bool,
     /// The preset that resets go back to: its name and scenario.
     pub base: (&'a str, &'a Scenario),
     /// What a figure or Table II is made with.
@@ -73,11 +85,15 @@ pub fn stage(
     // On a phone on its side there is no height to spare and width enough.
     let low = rect.height() < LOW && rect.width() > WIDE;
     if inputs.stage.section() == Section::Paper {
-        let room = if low { 0.58 * rect.width() } else { rect.width() - 8.0 };
+        let room = if low { 0.58 * rect.width() } else { rect.width() - 14.0 - save::BUTTON };
         let strip = Rect::from_min_max(pos2(rect.left() + 8.0, top), pos2(rect.left() + room, top + 32.0));
         choice(ui, strip, inputs.stage, out);
         if let Some(source) = inputs.source.filter(|_| low) {
-            source.line(ui, strip.with_min_x(strip.right() + 14.0).with_max_x(rect.right() - 8.0), out);
+            source.line(ui, strip.with_min_x(strip.right() + 14.0).with_max_x(rect.right() - 14.0 - save::BUTTON), out);
+        }
+        if let Some(subject) = Subject::on(inputs.stage) {
+            let corner = pos2(rect.right() - 8.0 - 0.5 * save::BUTTON, strip.center().y);
+            save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), subject, out);
         }
         top = strip.bottom() + 4.0;
     }

@@ -45,6 +45,8 @@ pub struct State {
     pub tuning: Tuning,
     /// What a small screen shows.
     pub tab: Tab,
+    /// The times A and B that are held against each other, s.
+    pub marks: [Option<f64>; 2],
     /// Whether a small screen shows the controls.
     pub sheet: bool,
     /// Whether the help is open.
@@ -101,6 +103,7 @@ impl Default for State {
             paper: Stage::PAPER[0],
             tuning: Tuning::default(),
             tab: Tab::Result,
+            marks: [None; 2],
             sheet: false,
             help: false,
         }

@@ -2,5 +2,6 @@
 
 pub mod help;
 pub mod link;
+pub mod log;
 pub mod refusal;
 pub mod story;

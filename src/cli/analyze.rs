@@ -6,18 +6,21 @@ pub use about::About;
 
 use super::ScenarioArgs;
 use super::draw::{self, Format as Drawing};
-use super::output::{Failure, NewFile, finish_csv, write_record};
-use super::report::{Report, Tally};
-use centrode_core::chart::csv::cell;
+use super::output::{Failure, NewFile, Table};
+use super::report::{Report, print, too_many};
 use centrode_core::chart::notation::plain;
+use centrode_core::detect::outlook::outlooks;
 use centrode_core::detect::{Method, Settings};
 use centrode_core::record::log::frame::{Frame, Setting};
 use centrode_core::record::log::{
     self, Commands, Format, Log, LogError, MAX_BYTES, Mapping, Options, Rate, Setup, assemble,
 };
-use centrode_core::run::{CHANNELS, Replay};
+use centrode_core::run::Replay;
+use centrode_core::scenario::link::Page;
 use centrode_core::scenario::{Scenario, Threshold};
-use centrode_core::study::timeline::Timeline;
+use centrode_core::study::export::signed;
+use centrode_core::study::report::Tally;
+use centrode_core::study::timeline::{Timeline, judged};
 use clap::Args;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -122,9 +125,9 @@ impl AnalyzeArgs {
         };
         let (log, commands) = self.read(&scenario)?;
         let about_log = blame(&self.log);
-        let setup = Setup { rate, commands, hold: self.hold, frame };
+        let setup = Setup { rate, commands, hold: self.hold, frame, most: None };
         let assembled = assemble(&log, &scenario, &setup).map_err(&about_log)?;
-        for outlook in assembled.outlooks.iter().filter(|outlook| !outlook.works) {
+        for outlook in outlooks(&log, assembled.commands).iter().filter(|outlook| !outlook.works) {
             if self.detectors.iter().any(|name| name == outlook.detector.key()) {
                 return Err(about_log(LogError::file(format!(
                     "--detectors {}: {}",
@@ -134,39 +137,34 @@ impl AnalyzeArgs {
             }
         }
         let plan = &assembled.plan;
-        let mut csv = self.csv.as_deref().map(NewFile::create).transpose()?.map(csv::Writer::from_writer);
-        if let Some(csv) = &mut csv {
-            write_record(csv, CHANNELS.iter().map(|channel| format!("{} [{}]", channel.name, channel.unit)))?;
-        }
+        // A log does not know what was true.
+        let mut csv = self.csv.as_deref().map(|path| Table::create(path, false)).transpose()?;
         let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
         let entries = &assembled.recording.entries;
         let mut timeline = figure.is_some().then(|| Timeline::new(plan.scenario(), &detectors, entries.len()));
         let mut replay = Replay::new(entries, &Settings::of(plan));
         let mut tally = Tally::new(self.json);
         while let Some(sample) = replay.next() {
-            tally.add(&sample, &replay.take_crossings(), &plan.scenario().detection)?;
+            tally.add(&sample, &replay.take_crossings(), &plan.scenario().detection).map_err(too_many)?;
             if let Some(timeline) = &mut timeline {
                 timeline.push(&sample);
             }
             if let Some(csv) = &mut csv {
-                // A log does not know what was true.
-                let value = |channel: &centrode_core::run::Channel| match channel.name {
-                    "in_contact" => String::new(),
-                    _ => cell((channel.value)(&sample)),
-                };
-                write_record(csv, CHANNELS.iter().map(value))?;
+                csv.write(&sample)?;
             }
         }
         if let Some(csv) = csv {
-            finish_csv(csv)?;
+            csv.finish()?;
         }
         if let (Some(mut file), Some(timeline), Some(drawing)) = (figure, timeline, drawing) {
             let title = self.log.file_name().map_or(String::new(), |name| plain(&name.to_string_lossy()));
-            draw::write(&mut file, &timeline.finish(title, replay.events()), drawing)?;
+            let chart = timeline.finish(title, judged(plan.scenario()), replay.events());
+            draw::write(&mut file, &signed(chart, plan.scenario(), Page::default()), drawing)?;
             file.finish()?;
         }
         let about = About::new(&log, &assembled);
-        Report::new(plan.scenario().clone(), tally, replay.events(), None, Some(about)).print(out, self.json)
+        let report = Report::new(plan.scenario().clone(), tally, replay.events(), None, Some(about));
+        print(out, &report, self.json)
     }
 
     fn detectors(&self) -> Result<Vec<Method>, Failure> {

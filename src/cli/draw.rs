@@ -1,11 +1,8 @@
 //! Charts as files: vectors, pixels or numbers.
 
 use super::output::{Failure, NewFile};
-use crate::scene::palette::Palette;
-use crate::show::ink;
+use crate::show::paper::{PIXELS, svg};
 use centrode_core::chart::Chart;
-use centrode_core::chart::layout::{Ink, Page, layout};
-use centrode_core::chart::svg::svg;
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 use std::io::Write;
@@ -64,37 +61,18 @@ impl Format {
     }
 }
 
-/// The page of a chart with one panel, and of one with several, in points; its text.
-const SINGLE: [f64; 2] = [1200.0, 820.0];
-const SEVERAL: [f64; 2] = [1280.0, 640.0];
-const TEXT: f64 = 15.0;
-const SMALL_TEXT: f64 = 14.0;
-/// Pixels to a point.
-const PIXELS: f32 = 2.0;
 /// The page's fonts: a drawing needs none of the machine.
 const FONTS: [&[u8]; 2] =
     [include_bytes!("../../assets/fonts/Inter-Regular.otf"), include_bytes!("../../assets/fonts/Inter-SemiBold.otf")];
 
 /// Draws a chart to its file.
 pub fn write(file: &mut NewFile, chart: &Chart, format: Format) -> Result<(), Failure> {
-    let text = vectors(chart);
+    let text = svg(chart);
     let bytes = match format {
         Format::Svg => text.into_bytes(),
         Format::Png => pixels(&text).map_err(|error| Failure::Input(format!("the drawing failed: {error}")))?,
     };
     file.write_all(&bytes).map_err(|error| file.blame(&error))
-}
-
-/// A chart as SVG, on white.
-fn vectors(chart: &Chart) -> String {
-    let single = chart.panels.len() < 2;
-    let (size, text) = if single { (SINGLE, TEXT) } else { (SEVERAL, SMALL_TEXT) };
-    let drawing = layout(chart, &Page { words: true, pixel: 1.0 / f64::from(PIXELS), ..Page::screen(size, text) });
-    let color = |ink: Ink| {
-        let [r, g, b, _] = ink::color(ink, &Palette::LIGHT, false).to_bytes();
-        [r, g, b]
-    };
-    svg(&drawing, chart, &color)
 }
 
 /// An SVG as PNG.
@@ -104,9 +82,10 @@ fn pixels(text: &str) -> Result<Vec<u8>, String> {
     FONTS.into_iter().for_each(|font| fonts.load_font_data(font.to_vec()));
     let tree = Tree::from_str(text, &options).map_err(|error| error.to_string())?;
     let size = tree.size();
-    let side = |points: f32| (points * PIXELS).round() as u32;
+    let scale = PIXELS as f32;
+    let side = |points: f32| (points * scale).round() as u32;
     let mut pixmap = Pixmap::new(side(size.width()), side(size.height())).ok_or("it has no size")?;
-    resvg::render(&tree, Transform::from_scale(PIXELS, PIXELS), &mut pixmap.as_mut());
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
     pixmap.encode_png().map_err(|error| error.to_string())
 }
 
@@ -149,7 +128,7 @@ mod tests {
             let scenario = find(number.preset()).expect("its preset").scenario().expect("a scenario");
             let mut job = FigureJob::new(number, &scenario).expect("a plan");
             job.finish();
-            let svg = vectors(&job.chart());
+            let svg = svg(&job.chart());
             let chart = job.chart();
             let words = printed(&(chart.title + &chart.caption)) + &svg;
             let missing: Vec<char> = runs(&words)

@@ -4,7 +4,9 @@ use super::ScenarioArgs;
 use super::draw::{self, Kind};
 use super::output::{Failure, NewFile};
 use centrode_core::chart::csv::csv;
+use centrode_core::scenario::link::Page;
 use centrode_core::study::Job;
+use centrode_core::study::export::signed;
 use centrode_core::study::figure::{FigureJob, Number};
 use clap::Args;
 use std::io::Write;
@@ -34,7 +36,7 @@ impl FigureArgs {
         // A file that cannot be written is said before the work, not after it.
         let mut file = NewFile::create(&self.out)?;
         job.finish();
-        let chart = job.chart();
+        let chart = signed(job.chart(), &scenario, Page::of(number.preset()));
         match kind {
             Kind::Drawing(format) => draw::write(&mut file, &chart, format)?,
             Kind::Csv => file.write_all(csv(&chart).as_bytes()).map_err(|error| file.blame(&error))?,

@@ -3,9 +3,10 @@
 use super::ScenarioArgs;
 use super::draw::{self, Kind};
 use super::output::{Failure, NewFile, json};
-use centrode_core::chart::csv;
+use centrode_core::scenario::link::Page;
 use centrode_core::scenario::{Plan, Scenario};
 use centrode_core::study::Job;
+use centrode_core::study::export::signed;
 use centrode_core::study::map::chart::chart;
 use centrode_core::study::map::{ContactMap, MapJob, largest_deviation, largest_epsilon};
 use clap::Args;
@@ -97,8 +98,11 @@ impl MapArgs {
         let map = job.map();
         if let (Some(mut file), Some(kind)) = (file, kind) {
             match kind {
-                Kind::Drawing(format) => draw::write(&mut file, &chart(map, &plan), format)?,
-                Kind::Csv => file.write_all(numbers(map).as_bytes()).map_err(|error| file.blame(&error))?,
+                Kind::Drawing(format) => {
+                    let chart = signed(chart(map, &plan), &scenario, Page::of("map"));
+                    draw::write(&mut file, &chart, format)?;
+                }
+                Kind::Csv => file.write_all(map.csv().as_bytes()).map_err(|error| file.blame(&error))?,
             }
             file.finish()?;
         }
@@ -119,16 +123,6 @@ impl MapArgs {
         };
         if self.json { json(out, &report) } else { Ok(text(out, &report)?) }
     }
-}
-
-/// Every cell, a row each.
-fn numbers(map: &ContactMap) -> String {
-    let columns = map.bends.len();
-    let row = |cell: usize| {
-        [map.arc_lengths[cell / columns], map.bends[cell % columns], map.deviation[cell], map.epsilon[cell]]
-    };
-    let header = ["arc_length [m]", "bend [rad]", "largest_xi2 [m]", "largest_epsilon_tau [1]"];
-    csv::table(header, (0..map.deviation.len()).map(row))
 }
 
 fn text(out: &mut impl Write, report: &Report<'_>) -> io::Result<()> {

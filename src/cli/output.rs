@@ -1,6 +1,8 @@
 //! How the command ends, and how it writes files and JSON.
 
 use super::interrupt::Part;
+use centrode_core::run::Sample;
+use centrode_core::study::channels;
 use serde::Serialize;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Write};
@@ -74,6 +76,41 @@ fn blame(csv: &csv::Writer<NewFile>, error: csv::Error) -> Failure {
         other => io::Error::other(format!("{other:?}")),
     };
     csv.get_ref().blame(&error)
+}
+
+/// Every channel of a run or a log as CSV, row by row.
+#[derive(Debug)]
+pub struct Table {
+    file: NewFile,
+    row: String,
+    /// Whether the truth is known.
+    truth: bool,
+}
+
+impl Table {
+    /// Opens the file and writes the header.
+    pub fn create(path: &Path, truth: bool) -> Result<Self, Failure> {
+        let mut table = Self { file: NewFile::create(path)?, row: channels::header(), truth };
+        table.flush()?;
+        Ok(table)
+    }
+
+    /// Writes the row of a sample.
+    pub fn write(&mut self, sample: &Sample) -> Result<(), Failure> {
+        channels::row(&mut self.row, sample, self.truth);
+        self.flush()
+    }
+
+    fn flush(&mut self) -> Result<(), Failure> {
+        let written = self.file.write_all(self.row.as_bytes());
+        self.row.clear();
+        written.map_err(|error| self.file.blame(&error))
+    }
+
+    /// Completes the file.
+    pub fn finish(self) -> Result<(), Failure> {
+        self.file.finish()
+    }
 }
 
 /// A file that appears under its name only when it is complete.

@@ -1,159 +1,29 @@
-//! What a run or a log comes to, as JSON and as a table.
+//! What a run or a log comes to, printed.
 
 use super::analyze::About;
 use super::output::{Failure, json};
-use centrode_core::detect::{Crossing, Detection, Event, Method};
-use centrode_core::run::Sample;
-use centrode_core::scenario::{Scenario, Thresholds};
-use serde::Serialize;
+use centrode_core::detect::{Detection, Event, Method};
+use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 
 /// What a run or a log comes to.
-#[derive(Debug, Serialize)]
-pub struct Report {
-    scenario: Scenario,
-    samples: usize,
-    /// Truth; null when the beam never holds, and for a log, which does not know it.
-    contact: Option<Contact>,
-    crossings: Vec<Crossing>,
-    /// What each detector makes of its crossings.
-    events: Vec<Event>,
-    /// Crossings that are not listed.
-    #[serde(skip)]
-    more: u64,
-    /// The first crossing of ξ2; null when there is none.
-    detection: Option<Found>,
-    /// Largest values judged: after arming, and for the centrode while the end disk turns.
-    peak: Peaks,
-    /// How the log was read; left out for a simulation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    log: Option<About>,
+pub type Report = report::Report<About>;
+
+/// Prints a report as JSON or as a table.
+pub fn print(out: &mut impl Write, report: &Report, as_json: bool) -> Result<(), Failure> {
+    if as_json { json(out, report) } else { Ok(table(out, report)?) }
 }
 
-impl Report {
-    /// Of what was simulated, or of a log.
-    pub fn new(
-        scenario: Scenario,
-        tally: Tally,
-        events: &[Event],
-        contact: Option<Contact>,
-        log: Option<About>,
-    ) -> Self {
-        let detection = Detection::first(events);
-        let delay = |detection: &Detection| contact.as_ref().map(|contact| detection.time - contact.time);
-        let detection = detection.map(|detection| Found { delay: delay(&detection), detection });
-        let Tally { samples, crossings: Crossings { listed, more, .. }, peak, .. } = tally;
-        Self { scenario, samples, contact, crossings: listed, events: events.to_vec(), more, detection, peak, log }
-    }
-
-    /// Prints it as JSON or as a table.
-    pub fn print(&self, out: &mut impl Write, as_json: bool) -> Result<(), Failure> {
-        if as_json { json(out, self) } else { Ok(table(out, self)?) }
-    }
-}
-
-/// What is gathered sample by sample.
-#[derive(Debug)]
-pub struct Tally {
-    samples: usize,
-    /// Whether every crossing is listed.
-    lists: bool,
-    crossings: Crossings,
-    peak: Peaks,
-}
-
-impl Tally {
-    /// Before the first sample; `lists` for JSON, which lists every crossing.
-    pub fn new(lists: bool) -> Self {
-        let crossings = Crossings::new(if lists { MAX_CROSSINGS } else { 0 });
-        Self { samples: 0, lists, crossings, peak: Peaks::default() }
-    }
-
-    /// Takes a sample, and the crossings at it.
-    pub fn add(&mut self, sample: &Sample, crossings: &[Crossing], thresholds: &Thresholds) -> Result<(), Failure> {
-        let Self { samples, lists, crossings: listed, peak } = self;
-        *samples += 1;
-        listed.add(crossings);
-        if *lists && listed.more > 0 {
-            let line = format!(
-                "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {} s there are more: raise \
-                 detection.xi2 or detection.xi1, or leave --json away",
-                sample.time
-            );
-            return Err(Failure::Input(line));
-        }
-        let Sample { time, judgement, .. } = sample;
-        for (method, peak) in [(Method::Fcd, &mut peak.deviation), (Method::Jfd, &mut peak.residual)] {
-            if let Some(value) = method.statistic(judgement, *time, thresholds).counted() {
-                raise(peak, *time, value);
-            }
-        }
-        Ok(())
-    }
-}
-
-/// A contact as the simulation knows it.
-#[derive(Debug, Serialize)]
-pub struct Contact {
-    /// When it began, s.
-    pub time: f64,
-    /// Where, m.
-    pub arc_length: f64,
-    /// Bend of the segment then, rad.
-    pub bend: f64,
-}
-
-#[derive(Debug, Serialize)]
-struct Found {
-    #[serde(flatten)]
-    detection: Detection,
-    /// Time since the contact began, s; null without contact.
-    delay: Option<f64>,
-}
-
-#[derive(Debug, Default, Serialize)]
-struct Peaks {
-    deviation: Option<Peak>,
-    residual: Option<Peak>,
-}
-
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Peak {
-    time: f64,
-    value: f64,
-}
-
-fn raise(peak: &mut Option<Peak>, time: f64, value: f64) {
-    if !value.is_nan() && peak.is_none_or(|peak| value > peak.value) {
-        *peak = Some(Peak { time, value });
-    }
+/// Refuses to list so many crossings.
+pub fn too_many(TooMany { time }: TooMany) -> Failure {
+    Failure::Input(format!(
+        "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {time} s there are more: raise \
+         detection.xi2 or detection.xi1, or leave --json away"
+    ))
 }
 
 /// At most this many events are listed in the table; JSON holds them all.
 const LISTED: usize = 12;
-
-/// A run with more crossings than this gives no JSON: 40 MB of them.
-pub const MAX_CROSSINGS: usize = 1_000_000;
-
-/// The first crossings, and how many more there are.
-#[derive(Debug)]
-struct Crossings {
-    most: usize,
-    listed: Vec<Crossing>,
-    more: u64,
-}
-
-impl Crossings {
-    fn new(most: usize) -> Self {
-        Self { most, listed: Vec::new(), more: 0 }
-    }
-
-    fn add(&mut self, crossings: &[Crossing]) {
-        let (listed, more) = crossings.split_at(crossings.len().min(self.most - self.listed.len()));
-        self.listed.extend_from_slice(listed);
-        self.more += more.len() as u64;
-    }
-}
 
 fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     let (mm, degrees) = (|x: f64| x * 1e3, |x: f64| x.to_degrees());
@@ -217,20 +87,5 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     match report.crossings.len() as u64 + report.more {
         1 => writeln!(out, "a threshold was crossed once"),
         count => writeln!(out, "thresholds were crossed {count} times (--json lists every crossing)"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_crossings_are_listed_and_the_others_counted() {
-        let at = |time| Crossing { method: Method::Fcd, time, theta_l: 0.0, value: 2.0, threshold: 1.0 };
-        let mut crossings = Crossings::new(3);
-        for some in [&[][..], &[at(1.0), at(2.0)], &[at(3.0), at(4.0)], &[at(5.0)]] {
-            crossings.add(some);
-        }
-        assert_eq!((crossings.listed, crossings.more), (vec![at(1.0), at(2.0), at(3.0)], 2));
     }
 }

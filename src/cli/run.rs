@@ -1,15 +1,20 @@
 //! `centrode run`: simulate one scenario, sample by sample.
 //!
 //! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
-//! at most [`MAX_CROSSINGS`](super::report::MAX_CROSSINGS) of them.
+//! at most [`MAX_CROSSINGS`](centrode_core::study::report::MAX_CROSSINGS) of them.
 
 use super::ScenarioArgs;
+use super::draw::{self, Format};
 use super::logfile::LogFile;
-use super::output::{Failure, NewFile, finish_csv, write_record};
-use super::report::{Contact, Report, Tally};
-use centrode_core::chart::csv::cell;
-use centrode_core::run::{CHANNELS, Simulation};
+use super::output::{Failure, NewFile, Table};
+use super::report::{Report, print, too_many};
+use centrode_core::detect::Method;
+use centrode_core::run::Simulation;
 use centrode_core::scenario::Plan;
+use centrode_core::scenario::link::Page;
+use centrode_core::study::export::signed;
+use centrode_core::study::report::{Contact, Tally};
+use centrode_core::study::timeline::{Timeline, simulated};
 use clap::Args;
 use std::io::Write;
 use std::path::PathBuf;
@@ -28,6 +33,9 @@ pub struct RunArgs {
     /// Write what a rig would have recorded, without the truth, to a log; the extension says how.
     #[arg(long, value_name = "FILE.{csv,tum,mcap}")]
     log: Option<PathBuf>,
+    /// Draw what the detectors hold against their thresholds.
+    #[arg(long, value_name = "FILE.{svg,png}")]
+    figure: Option<PathBuf>,
 }
 
 impl RunArgs {
@@ -35,35 +43,38 @@ impl RunArgs {
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario()?;
         let plan = Plan::new(&scenario).map_err(|error| Failure::Input(error.to_string()))?;
-        let mut csv = self.csv.as_deref().map(NewFile::create).transpose()?.map(csv::Writer::from_writer);
-        if let Some(csv) = &mut csv {
-            let header = CHANNELS.iter().map(|channel| format!("{} [{}]", channel.name, channel.unit));
-            write_record(csv, header)?;
-        }
+        let format = self.figure.as_deref().map(|path| Format::of("--figure", path)).transpose()?;
+        let mut csv = self.csv.as_deref().map(|path| Table::create(path, true)).transpose()?;
+        let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
         let mut log = self.log.as_deref().map(|path| LogFile::create(path, &plan)).transpose()?;
         let mut simulation = Simulation::new(&plan);
         let mut tally = Tally::new(self.json);
+        let mut timeline = figure.is_some().then(|| Timeline::new(&scenario, Method::ALL, plan.samples()));
         while let Some(sample) = simulation.next() {
-            tally.add(&sample, &simulation.take_crossings(), &scenario.detection)?;
+            tally.add(&sample, &simulation.take_crossings(), &scenario.detection).map_err(too_many)?;
+            if let Some(timeline) = &mut timeline {
+                timeline.push(&sample);
+            }
             if let Some(log) = &mut log {
                 log.write(simulation.entry())?;
             }
             if let Some(csv) = &mut csv {
-                write_record(csv, CHANNELS.iter().map(|channel| cell((channel.value)(&sample))))?;
+                csv.write(&sample)?;
             }
         }
         if let Some(csv) = csv {
-            finish_csv(csv)?;
+            csv.finish()?;
+        }
+        if let (Some(mut file), Some(timeline), Some(format)) = (figure, timeline, format) {
+            let chart = signed(simulated(timeline, &plan, simulation.events()), &scenario, Page::default());
+            draw::write(&mut file, &chart, format)?;
+            file.finish()?;
         }
         if let Some(log) = log {
             log.finish()?;
         }
-        let contact_time = simulation.contact_time();
-        let contact = plan.contact().zip(contact_time).map(|(contact, time)| Contact {
-            time,
-            arc_length: contact.arc_length,
-            bend: contact.bend,
-        });
-        Report::new(scenario, tally, simulation.events(), contact, None).print(out, self.json)
+        let contact = Contact::of(&plan, simulation.contact_time());
+        let report = Report::new(scenario, tally, simulation.events(), contact, None);
+        print(out, &report, self.json)
     }
 }

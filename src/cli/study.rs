@@ -8,8 +8,10 @@ use super::ScenarioArgs;
 use super::draw::{self, Format};
 use super::output::{Failure, NewFile, json};
 use centrode_core::detect::Method;
+use centrode_core::scenario::link::Page;
 use centrode_core::scenario::{Override, Scenario, Xi1Rule};
 use centrode_core::study::Job;
+use centrode_core::study::export::signed;
 use centrode_core::study::tuning::chart::chart;
 use centrode_core::study::tuning::levels::Levels;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
@@ -159,7 +161,14 @@ impl StudyArgs {
             table::csv(file, &study, partial)?;
         }
         if let (Some(mut file), Some(format)) = (drawing, format) {
-            draw::write(&mut file, &chart(&study, &wish, &verdict, partial), format)?;
+            let page = Page {
+                rule: wish.rule.name(),
+                false_alarms: wish.false_alarm_rate,
+                repeats: repeats as u64,
+                ..Page::of("tuning")
+            };
+            let chart = signed(chart(&study, &wish, &verdict, partial), &scenario, page);
+            draw::write(&mut file, &chart, format)?;
             file.finish()?;
         }
         if self.json {

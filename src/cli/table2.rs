@@ -2,12 +2,14 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Format};
-use super::output::{Failure, NewFile, finish_csv, json, write_record};
-use centrode_core::chart::csv::cell;
+use super::output::{Failure, NewFile, json};
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::link::Page;
 use centrode_core::study::Job;
-use centrode_core::study::table2::chart::with_words;
-use centrode_core::study::table2::{Disk, PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
+use centrode_core::study::export::signed;
+use centrode_core::study::table2::chart::{made, with_words};
+use centrode_core::study::table2::export::{QUANTITIES, csv, latex};
+use centrode_core::study::table2::{PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
 use std::io::{self, Write};
@@ -28,6 +30,9 @@ pub struct Table2Args {
     /// Write both tables to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Write both tables to a LaTeX file, a plain tabular with units in its head.
+    #[arg(long, value_name = "FILE")]
+    latex: Option<PathBuf>,
     /// Draw every estimate against the true place to a file, .svg or .png.
     #[arg(long, value_name = "FILE.{svg,png}")]
     svg: Option<PathBuf>,
@@ -55,16 +60,23 @@ impl Table2Args {
         let mut job = Table2Job::new(&scenario, self.repeats).map_err(|error| Failure::Input(error.to_string()))?;
         let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
         // A file that cannot be written is said before the work, not after it.
-        let file = self.csv.as_deref().map(NewFile::create).transpose()?;
+        let [numbers, tabular] = [&self.csv, &self.latex].map(|path| path.as_deref().map(NewFile::create).transpose());
+        let (numbers, tabular) = (numbers?, tabular?);
         let drawing = self.svg.as_deref().map(NewFile::create).transpose()?;
         job.finish();
         let table = job.table();
         if let (Some(mut file), Some(format)) = (drawing, format) {
-            draw::write(&mut file, &with_words(&table, job.rows(), (&scenario, self.repeats)), format)?;
+            let chart = with_words(&table, job.rows(), (&scenario, self.repeats));
+            draw::write(&mut file, &signed(chart, &scenario, Page::of("table2")), format)?;
             file.finish()?;
         }
-        if let Some(file) = file {
-            csv(file, &table)?;
+        let written = [
+            numbers.map(|file| (file, csv(&table))),
+            tabular.map(|file| (file, latex(&table, &made(&scenario, self.repeats)))),
+        ];
+        for (mut file, text) in written.into_iter().flatten() {
+            file.write_all(text.as_bytes()).map_err(|error| file.blame(&error))?;
+            file.finish()?;
         }
         if self.json {
             let rows = Rows { paper: &paper_rows(), simulated: job.rows() };
@@ -73,82 +85,6 @@ impl Table2Args {
             Ok(text(out, &table)?)
         }
     }
-}
-
-/// A quantity of a disk: its name and unit in CSV, and in the table with a scale and a number of digits.
-struct Quantity {
-    key: &'static str,
-    si_unit: &'static str,
-    label: &'static str,
-    scale: f64,
-    digits: usize,
-    of: fn(&Disk) -> Spread,
-}
-
-const DEGREES: f64 = 180.0 / std::f64::consts::PI;
-
-const QUANTITIES: [Quantity; 4] = [
-    Quantity {
-        key: "detection_time",
-        si_unit: "s",
-        label: "detected at [s]",
-        scale: 1.0,
-        digits: 3,
-        of: |disk| disk.detection_time,
-    },
-    Quantity { key: "delay", si_unit: "s", label: "after contact [s]", scale: 1.0, digits: 3, of: |disk| disk.delay },
-    Quantity {
-        key: "theta_l",
-        si_unit: "rad",
-        label: "θL then [°]",
-        scale: DEGREES,
-        digits: 2,
-        of: |disk| disk.theta_l,
-    },
-    Quantity {
-        key: "location",
-        si_unit: "m",
-        label: "located at [mm]",
-        scale: 1e3,
-        digits: 2,
-        of: |disk| disk.location,
-    },
-];
-
-fn csv(file: NewFile, table: &Table2) -> Result<(), Failure> {
-    let mut csv = csv::Writer::from_writer(file);
-    let fixed = [
-        "table",
-        "disk",
-        "arc_length [m]",
-        "contact_time [s]",
-        "repeats",
-        "found",
-        "false_alarms",
-        "location_bias [m]",
-    ];
-    let titles = QUANTITIES.iter().flat_map(|quantity| {
-        ["mean", "deviation"].map(|kind| format!("{}_{kind} [{}]", quantity.key, quantity.si_unit))
-    });
-    write_record(&mut csv, fixed.into_iter().map(String::from).chain(titles))?;
-    for (name, disks) in [("paper", &table.paper), ("simulated", &table.simulated)] {
-        for disk in disks {
-            let fixed = [
-                name.into(),
-                disk.disk.to_string(),
-                cell(disk.arc_length),
-                cell(disk.contact_time),
-                disk.repeats.to_string(),
-                disk.found.to_string(),
-                disk.false_alarms.map_or(String::new(), |count| count.to_string()),
-                cell(disk.bias),
-            ];
-            let values = QUANTITIES.iter().map(|quantity| (quantity.of)(disk));
-            let values = values.flat_map(|statistic| [cell(statistic.mean), cell(statistic.deviation)]);
-            write_record(&mut csv, fixed.into_iter().chain(values))?;
-        }
-    }
-    finish_csv(csv)
 }
 
 fn text(out: &mut impl Write, table: &Table2) -> io::Result<()> {

@@ -44,7 +44,12 @@ impl Target {
         let attachment = wgpu::TextureUsages::RENDER_ATTACHMENT;
         let samples = texture("scene samples", COLOR, SAMPLES, attachment);
         let depth = texture("scene depth", DEPTH, SAMPLES, attachment);
-        let resolved = texture("scene resolved", COLOR, 1, attachment | wgpu::TextureUsages::TEXTURE_BINDING);
+        let resolved = texture(
+            "scene resolved",
+            COLOR,
+            1,
+            attachment | wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC,
+        );
         let blit = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("scene blit"),
             layout: blit_layout,

@@ -5,6 +5,7 @@ use super::{
     batch::Batch,
     buffer::Reused,
     pipelines::{Pipelines, SHADOW_DEPTH},
+    snapshot::Snapshot,
     target::{Target, fitting},
     uniforms::{Globals, Inputs, SHADOW_TEXELS},
 };
@@ -90,6 +91,16 @@ impl View {
             drawn: None,
             painted: AtomicBool::new(false),
         }
+    }
+
+    /// Asks for the pixels of the picture that an encoder is about to draw.
+    pub(super) fn snapshot(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        encoder: wgpu::CommandEncoder,
+    ) -> Option<Snapshot> {
+        self.target.as_ref().map(|target| Snapshot::new(device, queue, encoder, target))
     }
 
     /// The picture, if there is one, to be laid on a target now.

@@ -71,7 +71,7 @@ impl Signs<'_> {
             scene.markers.push(self.sign(held, Shape::Ring, 15.0, palette.constrained));
         }
         let Some(model) = track::model(self.run, &sample).as_ref().map(scene_vector) else { return };
-        let (s, c) = self.run.recording.entries[self.run.place(self.time)].configuration.sin_cos_delta();
+        let (s, c) = self.run.commanded(self.run.place(self.time)).sin_cos_delta();
         self.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
         let triangle = self.sign(model, Shape::Triangle, 15.0, palette.model);
         let Some(sensor) = track::sensed(self.run, &sample).as_ref().map(scene_vector) else {

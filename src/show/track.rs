@@ -14,6 +14,8 @@ const SPACING: f64 = 0.055;
 const GRAIN: f64 = 0.013;
 /// The sensor's dots are looked for this often, s.
 const TICK: f64 = 0.015;
+/// And at most at so many instants of a log.
+const DOTS: usize = 8192;
 /// A centrode farther from the base than this many lengths is off the picture.
 const FAR: f64 = 1.6;
 /// The sensor's is also off when it is this many lengths away from the model's.
@@ -74,6 +76,9 @@ pub fn standing(run: &Run, sample: &Sample) -> Standing {
 /// however slow the motion's ends are.
 #[must_use]
 pub fn even(run: &Run, steps: usize) -> Vec<usize> {
+    if run.is_recorded() {
+        return moved(run, steps);
+    }
     let motion = &run.plan.scenario().motion;
     let step = (motion.theta_end - motion.theta_start) / steps as f64;
     let mut next = 0.0;
@@ -86,6 +91,39 @@ pub fn even(run: &Run, steps: usize) -> Vec<usize> {
         }
     }
     chosen
+}
+
+/// Of a log, which may move as it likes: places where θL has gone on by a share of all that it spans.
+fn moved(run: &Run, steps: usize) -> Vec<usize> {
+    let looked = || looked(run.len(), LOOKED).map(|k| (k, run.sample(k).theta_l)).filter(|(_, at)| at.is_finite());
+    let (least, most) = looked().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), (_, at)| (a.min(at), b.max(at)));
+    let step = (most - least) / steps as f64;
+    let mut chosen: Vec<usize> = Vec::new();
+    let mut last = f64::INFINITY;
+    for (k, at) in looked() {
+        if (at - last).abs() >= step && (step > 0.0 || chosen.is_empty()) {
+            chosen.push(k);
+            last = at;
+        }
+    }
+    // A motion that goes to and fro does not fill the picture.
+    let most = MOST_TURNS * steps;
+    let kept = looked_at(&chosen, most);
+    if kept.is_empty() { vec![0] } else { kept }
+}
+
+/// Places of a log at which its motion is looked at, at most.
+const LOOKED: usize = 4096;
+/// Marks of a log, in those of one motion, at most.
+const MOST_TURNS: usize = 4;
+
+/// At most `most` places of so many, evenly.
+pub fn looked(count: usize, most: usize) -> impl Iterator<Item = usize> {
+    (0..count).step_by(count.div_ceil(most.max(1)).max(1))
+}
+
+fn looked_at(places: &[usize], most: usize) -> Vec<usize> {
+    looked(places.len(), most).filter_map(|k| places.get(k).copied()).collect()
 }
 
 /// A locus over the whole motion.
@@ -153,7 +191,10 @@ impl Trace {
 
 fn dots(run: &Run) -> Vec<Dot> {
     let least = GRAIN * run.plan.segment().length;
-    let step = 1.max((TICK * run.plan.scenario().loop_rate) as usize);
+    let mut step = 1.max((TICK * run.plan.scenario().loop_rate) as usize);
+    if run.is_recorded() {
+        step = step.max(run.len() / DOTS);
+    }
     let mut dots: Vec<Dot> = Vec::new();
     for sample in (0..run.len()).step_by(step).map(|k| run.sample(k)) {
         if standing(run, &sample) != Standing::Counts {

@@ -3,7 +3,9 @@
 
 use super::{repaint, with_hooks};
 use crate::app::App;
+use crate::app::fonts::{REGULAR, SEMIBOLD};
 use crate::app::link::Effect;
+use crate::render::Pixels;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;
 
@@ -13,6 +15,8 @@ enum Arrival {
     Link(String),
     /// A file, or why it could not be read.
     File(String, Result<Vec<u8>, String>),
+    /// That a file could not be saved, and why.
+    Unsaved(String, String),
 }
 
 thread_local! {
@@ -42,12 +46,19 @@ pub fn file_failed(name: String, reason: String) {
     arrive(Arrival::File(name, Err(reason)));
 }
 
+/// A file could not be saved.
+#[wasm_bindgen]
+pub fn save_failed(name: String, reason: String) {
+    arrive(Arrival::Unsaved(name, reason));
+}
+
 /// Gives the interface what has come in.
 pub fn take_in(app: &mut App) {
     for arrival in ARRIVALS.take() {
         match arrival {
             Arrival::Link(fragment) => app.go(&fragment),
             Arrival::File(name, bytes) => app.opened(&name, bytes),
+            Arrival::Unsaved(name, reason) => app.not_saved(&name, &reason),
         }
     }
 }
@@ -56,7 +67,14 @@ pub fn take_in(app: &mut App) {
 pub fn hand_out(effect: Effect) {
     with_hooks(|hooks| match effect {
         Effect::Address { fragment, step } => hooks.address(&fragment, step),
-        Effect::Save { name, text } => hooks.save(&name, &text),
+        Effect::Save { name, kind, bytes } => hooks.save(&name, kind, &bytes),
+        Effect::Picture { name, svg, scale } => hooks.picture(&name, &svg, scale, REGULAR, SEMIBOLD),
+        Effect::Pixels { name, pixels: Pixels { size: [width, height], rgba } } => {
+            hooks.pixels(&name, width, height, &rgba);
+        }
         Effect::Choose => hooks.choose(),
+        Effect::Post(json) => hooks.post(&json),
+        Effect::ChooseLog => hooks.choose_log(),
+        Effect::Fetch(number) => hooks.fetch_log(number),
     });
 }

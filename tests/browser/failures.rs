@@ -34,10 +34,13 @@ fn without_a_gpu_it_says_what_to_do() {
 
 #[test]
 fn a_wrong_parameter_is_named_and_the_page_goes_on() {
-    let cases: [(&str, &[&str]); 5] = [
+    let cases: [(&str, &[&str]); 8] = [
         ("?test&renderer=bogus", &["bogus", "webgpu", "webgl"]),
         ("?test&renderer=", &["renderer", "nothing", "webgpu"]),
         ("?test&renderer=webgl&renderer=webgl", &["2 times"]),
+        ("?test&embed=bogus", &["embed=bogus", "all was used", "robot, plots, tuning, all"]),
+        ("?test&embed&origins=example.org", &["example.org in origins", "https://example.org"]),
+        ("?test&origins=https://a.example,https://b.example/page", &["https://b.example/page in origins"]),
         ("?test&rendrer=webgl", &["rendrer", "Known", "renderer"]),
         ("?test&renderer=%E0%A4%A&%3Cb%3E=%zz%00", &["renderer=", "“<b>”"]),
     ];

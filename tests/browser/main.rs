@@ -23,10 +23,13 @@
 )]
 
 mod core;
+mod embed;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
 mod links;
+mod logs;
 mod paper;
+mod saving;
 mod start;
 mod tuning;

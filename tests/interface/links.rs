@@ -183,7 +183,7 @@ fn a_broken_link_is_told_in_the_page_s_words() {
             "Contact disk 9: a disk from 1 to 3, the robot's spacer disks, or 0 for no contact.",
             "Used instead: Contact disk 2.",
             "bogus=1",
-            "Unknown key bogus; known are: preset, loop_rate, seed",
+            "Unknown key bogus; known keys: preset, loop_rate, seed",
             "filter.length=0.5",
             "ξ2 (centrode) −1000.0",
             "Run ends 300.00 s: at most 200000 samples",
@@ -252,13 +252,15 @@ fn a_scenario_is_saved_and_opened_again() {
     pick(&mut page, "Save scenario");
     page.step();
     let saved = handle(&mut page).take_effects();
-    let [Effect::Save { name, text }] = &saved[..] else { panic!("{saved:?}") };
-    assert_eq!((name.as_str(), Scenario::from_toml(text)), ("centrode-bench.toml", Ok(set.clone())));
+    let [Effect::Save { name, kind, bytes }] = &saved[..] else { panic!("{saved:?}") };
+    let text = std::str::from_utf8(bytes).expect("text");
+    assert_eq!((name.as_str(), *kind), ("centrode-bench.toml", "application/toml"));
+    assert_eq!(Scenario::from_toml(text), Ok(set.clone()));
     pick(&mut page, "Open scenario");
     page.step();
     assert_eq!(handle(&mut page).take_effects(), [Effect::Choose]);
     let mut other = page_of(DESK);
-    handle(&mut other).opened(name, Ok(text.clone().into_bytes()));
+    handle(&mut other).opened(name, Ok(bytes.clone()));
     other.run_steps(2);
     assert_eq!((&app(&other).state().scenario, app(&other).state().preset.as_str()), (&set, "bench"));
     assert!(other.query_by_label("centrode-bench.toml opened").is_some());
@@ -278,7 +280,7 @@ fn a_file_that_cannot_be_opened_changes_nothing() {
         (Ok(b"[contact]\ndisk = 9\n".to_vec()), "Contact disk 9: a disk from 1 to 3"),
         (Ok(b"seed = [".to_vec()), "Line 1: "),
         (Ok(b"\xff\xfe".to_vec()), "byte 0 is not UTF-8"),
-        (Ok(b"[motion]\nend = 300\n".to_vec()), "Run ends 300.00 s at loop_rate"),
+        (Ok(b"[motion]\nend = 300\n".to_vec()), "Run ends 300.00 s: at most 200000 samples"),
         (Ok(vec![b' '; (1 << 20) + 1]), "larger than 1 MiB"),
         (Err("It could not be read: gone".to_owned()), "could not be read: gone"),
     ] {

@@ -2,9 +2,12 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
+mod embed;
 mod links;
+mod logs;
 mod painted;
 mod pictures;
+mod saving;
 mod stages;
 mod support;
 mod tuning;

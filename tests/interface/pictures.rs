@@ -139,3 +139,20 @@ fn sharing_and_a_notice() {
     page.run_steps(2);
     compare(&mut page, "notice-phone-light");
 }
+
+#[test]
+fn saving_and_two_marks() {
+    let mut page = page(DESK, Light, 5.6);
+    page.key_press(egui::Key::A);
+    page.run_steps(2);
+    slide(&mut page, "Time", 6.6);
+    page.key_press(egui::Key::B);
+    page.run_steps(2);
+    compare(&mut page, "marks-desk-light");
+    click(&mut page, "Save plots");
+    compare(&mut page, "save-desk-light");
+    let mut page = self::page(PHONE, Dark, 6.6);
+    show(&mut page, "Figure 4");
+    click(&mut page, "Save figure 4");
+    compare(&mut page, "save-phone-dark");
+}

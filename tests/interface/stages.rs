@@ -205,7 +205,8 @@ fn refused(shown: Stage, scenario: Scenario) -> String {
         tuner.update(tuning.then_some(&scenario), 5, false);
         studies.update(shown, &scenario);
         let (base, tuner) = (("paper", &scenario), &tuner);
-        let inputs = Inputs { stage: shown, run: &run, base, source: None, tuner, tuning: Tuning::default() };
+        let inputs =
+            Inputs { stage: shown, plan: &run.plan, log: false, base, source: None, tuner, tuning: Tuning::default() };
         stage(ui, ui.max_rect(), &inputs, &mut studies, &mut state, &mut Vec::new());
     });
     let said = |node: egui_kittest::Node<'_>| node.accesskit_node().label().or_else(|| node.accesskit_node().value());

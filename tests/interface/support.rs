@@ -103,7 +103,7 @@ pub fn fits(page: &Page, size: Vec2, what: &str) {
         // What is further down is scrolled to.
         assert!(rect.left() >= screen.left() && rect.right() <= screen.right(), "{what} at {size}: {node:?}");
         if role == Role::Figure {
-            assert!(rect.width() > 100.0 && rect.height() > 60.0, "{what} at {size}: too small: {node:?}");
+            assert!(rect.width() > 100.0 && rect.height() > 60.0, "{what} at {size}: too small, {rect:?}: {node:?}");
             let covered = pictures.iter().any(|other| other.shrink(0.5).intersects(rect));
             assert!(!covered, "{what} at {size}: covered: {node:?}");
             pictures.push(rect);

@@ -107,6 +107,71 @@ fn a_figure_follows_its_overrides() {
 }
 
 #[test]
+fn captions_say_what_was_set_and_hold_the_link() {
+    let sets = ["--set", "contact.disk=3", "--set", "detection.armed_from=4.5"];
+    let svg = |name: &str, args: &[&str], flag: &str| {
+        let folder = folder(name);
+        let path = folder.join("f.svg");
+        let output = centrode(&[args, &sets, &[flag, path.to_str().expect("a path")]].concat());
+        assert!(output.status.success(), "{args:?}: {}", String::from_utf8_lossy(&output.stderr));
+        let svg = fs::read_to_string(&path).expect("written");
+        fs::remove_dir_all(&folder).expect("removed");
+        svg
+    };
+    for (name, args, flag, view) in [
+        ("caption-figure", &["figure", "8"][..], "--out", "preset=figure-8&amp;contact.disk=3&amp;detection.armed"),
+        (
+            "caption-run",
+            &["run", "--preset", "bench"],
+            "--figure",
+            "preset=bench&amp;contact.disk=3&amp;detection.armed",
+        ),
+        ("caption-table2", &["table2", "--repeats", "1"], "--svg", "view=table2"),
+        ("caption-map", &["map", "--columns", "5", "--rows", "5"], "--out", "view=map"),
+        ("caption-study", &["study", "--repeats", "2"], "--svg", "view=tuning"),
+    ] {
+        let svg = svg(name, args, flag);
+        assert!(svg.contains("Centrode #preset=") && svg.contains(view), "{name}: {svg}");
+        // An underscore of a key lowers nothing.
+        assert!(svg.contains("detection.armed_from=4.5"), "{name}");
+    }
+}
+
+#[test]
+fn a_run_is_drawn_over_time_as_vectors_and_pixels() {
+    let folder = folder("run-figure");
+    let file = |name: &str| folder.join(name).to_str().expect("a path").to_owned();
+    for name in ["run.svg", "run.png"] {
+        let output = centrode(&["run", "--preset", "bench", "--figure", &file(name)]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        assert!(String::from_utf8_lossy(&output.stdout).contains("detected"), "the table is still printed");
+    }
+    let svg = fs::read_to_string(file("run.svg")).expect("written");
+    for word in ["Centrode deviation", "Joint force deviation", "Tangent angle", "raised", "not armed", "contact"] {
+        assert!(svg.contains(word), "it lacks {word:?}");
+    }
+    assert!(!svg.contains("NaN"));
+    let (width, height, inked) = picture(&fs::read(file("run.png")).expect("written"));
+    assert_eq!((width, height), (2400, 2520));
+    assert!((0.01..0.5).contains(&inked), "{inked}");
+    fs::remove_dir_all(&folder).expect("removed");
+    let output = centrode(&["run", "--figure", "a.csv"]);
+    assert!(!output.status.success() && String::from_utf8_lossy(&output.stderr).contains("--figure a.csv"));
+}
+
+#[test]
+fn table_ii_is_written_for_latex() {
+    let folder = folder("latex");
+    let path = folder.join("table.tex");
+    let output = centrode(&["table2", "--repeats", "2", "--latex", path.to_str().expect("a path")]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let text = fs::read_to_string(&path).expect("written");
+    fs::remove_dir_all(&folder).expect("removed");
+    assert!(text.contains("% Centrode #preset=bench&view=table2\n"), "{text}");
+    assert!(text.contains("2 repeats") && text.ends_with("\\end{tabular}\n"), "{text}");
+}
+
+#[test]
 fn the_map_is_drawn() {
     let args = ["map", "--columns", "20", "--rows", "15"];
     let svg = String::from_utf8(written("map-svg", &args, "m.svg")).expect("text");

@@ -87,8 +87,8 @@ fn broken(text: &str) -> (Link, Vec<Broken>) {
 fn what_is_broken_is_named_with_what_is_allowed_and_what_was_used() {
     for (text, parts) in [
         ("preset=bench&contact.disk=9", &["contact.disk=9", "disk from 1 to 3", "(contact.disk = 2 instead)"][..]),
-        ("contact.disk=two", &["contact.disk=two", "\"two\"", "whole number", "(contact.disk = 2 instead)"]),
-        ("contact.disk=1.5", &["1.5", "whole number"]),
+        ("contact.disk=two", &["contact.disk=two", "\"two\"", "the number of a disk", "(contact.disk = 2 instead)"]),
+        ("contact.disk=1.5", &["1.5", "the number of a disk"]),
         ("preset=disk-9", &["preset=disk-9", "unknown preset", "bench, paper", "(preset = \"bench\" instead)"]),
         ("bogus=1", &["bogus", "unknown key", "preset, loop_rate", "view, t, speed"]),
         ("robot.lenght=1", &["robot.lenght", "unknown key", "length, pitch_radius"]),

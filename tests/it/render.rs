@@ -364,3 +364,43 @@ fn two_views_do_not_disturb_each_other() {
     assert!(r > 2 * b);
     assert!(near(picture.at(2, 2), Color::WHITE, 1));
 }
+
+#[test]
+fn a_snapshot_is_the_picture_and_may_have_no_background() {
+    let gpu = Gpu::new();
+    let mut renderer = Renderer::new(&gpu.device, FORMAT);
+    let palette = Palette::LIGHT;
+    let (mut scene, camera) = bench(palette);
+    // No multiple of the bytes to which rows are padded on their way back.
+    let size = [330, 250];
+    let mut taken = |scene: &Scene, studio: &Studio| {
+        let frame = Frame {
+            view: ViewId(1),
+            size_px: size,
+            pixels_per_point: 1.0,
+            scene,
+            scene_version: 0,
+            camera: &camera,
+            studio,
+        };
+        let snapshot = renderer.snapshot(&gpu.device, &gpu.queue, &frame).expect("a picture");
+        gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the GPU finishes");
+        snapshot.take(&gpu.device).expect("it is there").expect("pixels")
+    };
+    let opaque = taken(&scene, &palette.studio);
+    let ground = scene.ground.take();
+    let clear =
+        Studio { inner: palette.studio.inner.alpha(0.0), outer: palette.studio.outer.alpha(0.0), ..palette.studio };
+    let cut = taken(&scene, &clear);
+    scene.ground = ground;
+    let shown = render(&gpu, &mut renderer, (&scene, 1), &camera, &palette.studio, (size, 1.0), wgpu::Color::GREEN);
+    assert_eq!((opaque.size, opaque.rgba.len()), (size, shown.pixels.len() * 4));
+    assert!(opaque.rgba.chunks_exact(4).zip(&shown.pixels).all(|(a, b)| a == b), "what the page shows");
+
+    let pixel = |x: u32, y: u32| &cut.rgba[4 * (y * size[0] + x) as usize..][..4];
+    for (x, y) in [(2, 2), (size[0] - 3, 2), (2, size[1] - 3)] {
+        assert_eq!(pixel(x, y), [0; 4], "a corner");
+    }
+    let robot = cut.rgba.chunks_exact(4).filter(|pixel| pixel[3] == 255).count();
+    assert!(robot > shown.pixels.len() / 50, "{robot} pixels of the robot");
+}

@@ -88,6 +88,8 @@ fn page(root: &Path, mut parts: Files) -> Result<Files> {
 
     let mut files: Files = parts.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)).collect();
     files.insert("index.html".into(), index.into_bytes());
+    // A host page to try the page in a frame on.
+    files.insert("examples/embed.html".into(), fs::read(root.join("examples/embed.html"))?);
     Ok(files)
 }
 

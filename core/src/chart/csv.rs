@@ -1,5 +1,6 @@
 //! A chart's numbers as CSV, SI units in the header.
 
+use super::ticks::Tick;
 use super::{Axis, Chart, Panel, Role};
 
 /// A number as it is read back; what is not defined stays empty.
@@ -14,15 +15,20 @@ fn field(text: &str) -> String {
 }
 
 fn row(text: &mut String, fields: &[&str]) {
-    let fields: Vec<String> = fields.iter().map(|part| field(part)).collect();
-    text.push_str(&fields.join(","));
-    text.push('\n');
+    text.push_str(&line(fields));
+}
+
+/// A row of fields, with its end; what would end a field early is quoted.
+#[must_use]
+pub fn line(fields: impl IntoIterator<Item = impl AsRef<str>>) -> String {
+    let fields: Vec<String> = fields.into_iter().map(|part| field(part.as_ref())).collect();
+    fields.join(",") + "\n"
 }
 
 /// The numbers of the curves, marks, bars, intervals, lines and spans, one row each: kind, place of the series, name, x, y. A gap
 /// is a row with an empty y; of what stands over the whole height y is empty. A span has a row for both ends, a bar for two
-/// opposite corners, an interval for an end, its mark and the other end. A chart of several
-/// panels is written panel by panel, each with its own header.
+/// opposite corners, an interval for an end, its mark and the other end. A map has a row for each cell with its middle, and a sixth column
+/// with the values in the unit shown. A chart of several panels is written panel by panel, each with its own header.
 ///
 /// ```
 /// use centrode_core::chart::csv::csv;
@@ -55,17 +61,31 @@ pub fn table<const N: usize>(header: [&str; N], rows: impl Iterator<Item = [f64;
 
 fn of_panel(text: &mut String, panel: &Panel) {
     let title = |axis: &Axis| format!("{} [{}]", axis.name, axis.si_unit);
-    row(text, &["kind", "series", "name", &title(&panel.x), &title(&panel.y)]);
+    let value = panel.map.as_ref().map(|map| format!("value [{}]", map.unit));
+    // Where there is a map each row has a value, though mostly an empty one.
+    let mut row = |fields: [&str; 5], value: &str| match panel.map {
+        Some(_) => row(text, &[&fields[..], &[value]].concat()),
+        None => row(text, &fields),
+    };
+    row(["kind", "series", "name", &title(&panel.x), &title(&panel.y)], value.as_deref().unwrap_or_default());
     for (k, series) in panel.series.iter().enumerate() {
         for [x, y] in &series.points {
-            row(text, &[series.style.name(), &k.to_string(), &series.name, &cell(*x), &cell(*y)]);
+            row([series.style.name(), &k.to_string(), &series.name, &cell(*x), &cell(*y)], "");
         }
     }
     let bars = panel.bars.iter().map(|bars| ("bar", &bars.name, bars.corners.as_flattened()));
     let intervals = panel.intervals.iter().map(|all| ("interval", &all.name, all.ends.as_flattened()));
     for (kind, name, points) in bars.chain(intervals) {
         for [x, y] in points {
-            row(text, &[kind, "", name, &cell(*x), &cell(*y)]);
+            row([kind, "", name, &cell(*x), &cell(*y)], "");
+        }
+    }
+    if let Some(map) = &panel.map {
+        let middle = |[from, to]: [f64; 2], k: usize, of: usize| from + (to - from) * (k as f64 + 0.5) / of as f64;
+        for (k, value) in map.values.iter().enumerate() {
+            let x = place(&panel.x, middle(map.x, k % map.columns, map.columns));
+            let y = place(&panel.y, middle(map.y, k / map.columns, map.rows()));
+            row(["cell", "", "", &x, &y], &cell(value * map.scale));
         }
     }
     for vertical in &panel.verticals {
@@ -74,19 +94,25 @@ fn of_panel(text: &mut String, panel: &Panel) {
             Role::Contact => "contact",
             _ => "vertical",
         };
-        row(text, &[kind, "", vertical.name, &cell(vertical.x), ""]);
+        row([kind, "", vertical.name, &cell(vertical.x), ""], "");
     }
     for span in &panel.spans {
         for x in span.ends {
-            row(text, &["span", "", span.name, &cell(x), ""]);
+            row(["span", "", span.name, &cell(x), ""], "");
         }
     }
+}
+
+/// A place on an axis: the name of the category where it is one.
+fn place(axis: &Axis, value: f64) -> String {
+    let near = |tick: &&Tick| (tick.value - value).abs() < 1e-9 && !tick.text.is_empty();
+    axis.ticks.iter().find(near).map_or_else(|| cell(value), |tick| tick.text.clone())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::chart::{Bars, Intervals, Series, Span, Style, Vertical};
+    use crate::chart::{Bars, Intervals, Map, Series, Span, Style, Vertical};
 
     #[test]
     fn what_is_not_defined_is_empty() {
@@ -110,5 +136,29 @@ mod tests {
         assert_eq!(lines[3..5], ["bar,,found,0,1", "bar,,found,0.1,0.5"]);
         assert_eq!(lines[5..8], ["interval,,median,,", "interval,,median,3,2", "interval,,median,4,2"]);
         assert_eq!(lines[8..], ["detection,,detection,2,", "span,,not armed,0,", "span,,not armed,1,"]);
+    }
+
+    #[test]
+    fn a_map_has_a_row_for_each_cell_and_categories_their_names() {
+        let x = Axis::categories("N", ["50", "100"].map(String::from), false);
+        let mut panel = Panel::new(x, Axis::new("y", "m", "mm", 1e3));
+        panel.series = vec![Series::new("", Role::Choice, Style::Rings, vec![[1.0, 0.5]])];
+        panel.map = Some(Map {
+            unit: "ms",
+            scale: 1e3,
+            columns: 2,
+            values: vec![0.25, f64::NAN],
+            faint: Vec::new(),
+            x: [-0.5, 1.5],
+            y: [0.0, 1.0],
+            ends: [0.0, 1.0],
+            level: None,
+            line: Vec::new(),
+        });
+        let text = csv(&Chart { panels: vec![panel], ..Chart::default() });
+        assert_eq!(
+            text.lines().collect::<Vec<_>>(),
+            ["kind,series,name,N [1],y [m],value [ms]", "rings,0,,1,0.5,", "cell,,,50,0.5,250", "cell,,,100,0.5,"]
+        );
     }
 }

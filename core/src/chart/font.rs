@@ -44,7 +44,7 @@ pub fn width(text: &str, size: f64, strong: bool) -> f64 {
     runs(text).iter().map(|run| plain_width(&run.text, strong) * if run.low { LOW * size } else { size }).sum()
 }
 
-/// Text in lines of at most a width; a word that is wider has its own line.
+/// Text in lines of at most a width; a word that is wider has its own line, and is broken after `&` and `,`, as in a link.
 #[must_use]
 pub fn lines(text: &str, size: f64, most: f64) -> Vec<String> {
     let mut lines = Vec::new();
@@ -52,15 +52,31 @@ pub fn lines(text: &str, size: f64, most: f64) -> Vec<String> {
         let mut line = String::new();
         for word in paragraph.split(' ') {
             let longer = if line.is_empty() { word.to_owned() } else { format!("{line} {word}") };
-            if line.is_empty() || width(&longer, size, false) <= most {
+            if width(&longer, size, false) <= most {
                 line = longer;
-            } else {
+            } else if width(word, size, false) <= most {
                 lines.push(std::mem::replace(&mut line, word.to_owned()));
+            } else {
+                let lead = if line.is_empty() { String::new() } else { line + " " };
+                line = broken(&mut lines, lead, word, size, most);
             }
         }
         lines.push(line);
     }
     lines
+}
+
+/// Breaks a word that is wider than a line, the first of which begins with `line`; returns what begins the next.
+fn broken(lines: &mut Vec<String>, mut line: String, word: &str, size: f64, most: f64) -> String {
+    for part in word.split_inclusive(['&', ',']) {
+        let longer = format!("{line}{part}");
+        if line.is_empty() || width(&longer, size, false) <= most {
+            line = longer;
+        } else {
+            lines.push(std::mem::replace(&mut line, part.to_owned()).trim_end().to_owned());
+        }
+    }
+    line
 }
 
 #[cfg(test)]
@@ -83,5 +99,15 @@ mod tests {
         assert!(lines.len() > 2 && lines.iter().all(|line| width(line, 10.0, false) <= 60.0), "{lines:?}");
         assert_eq!(lines.join(" "), text.replace('\n', " "));
         assert_eq!(super::lines("unbreakable", 10.0, 1.0), ["unbreakable"]);
+    }
+
+    #[test]
+    fn a_link_is_broken_between_its_settings() {
+        let text = "Centrode #preset=bench&seed=7&contact.disk=3&robot.disks=0.01,0.02,0.03&detection.xi2=0.005";
+        let lines = lines(text, 10.0, 160.0);
+        assert!(lines.len() > 3 && lines.iter().all(|line| width(line, 10.0, false) <= 160.0), "{lines:?}");
+        assert!(lines[0].starts_with("Centrode #preset=bench&"), "{lines:?}");
+        assert!(lines[..lines.len() - 1].iter().all(|line| line.ends_with(['&', ','])), "{lines:?}");
+        assert_eq!(lines.concat(), text);
     }
 }

@@ -204,8 +204,17 @@ pub fn layout(chart: &Chart, page: &Page) -> Drawing {
     if page.words {
         space = words(&mut drawing, chart, page, space);
     }
-    for (k, (panel, place)) in chart.panels.iter().zip(places(space, chart.panels.len(), t)).enumerate() {
-        let mut pen = Pen { drawing: &mut drawing, page, t, k };
+    let places = places(space, chart.panels.len(), t);
+    let [first, others @ ..] = &chart.panels[..] else { return drawing };
+    let in_column = others.iter().all(|panel| panel.x == first.x) && places.iter().all(|at| at.left == places[0].left);
+    let mut pen = Pen { drawing: &mut drawing, page, t, k: 0, gutter: 0.0 };
+    if in_column && !others.is_empty() {
+        // Panels over one axis begin in line.
+        let gutters = chart.panels.iter().zip(&places).map(|(panel, at)| pen.gutter(panel, &pen.below_head(at)));
+        pen.gutter = gutters.fold(0.0, f64::max);
+    }
+    for (k, (panel, place)) in chart.panels.iter().zip(places).enumerate() {
+        pen.k = k;
         pen.panel(panel, place);
     }
     drawing
@@ -215,7 +224,7 @@ pub fn layout(chart: &Chart, page: &Page) -> Drawing {
 #[must_use]
 pub fn over(frame: &Frame, series: &[Series], page: &Page, on_map: bool) -> Vec<Item> {
     let mut drawing = Drawing { size: page.size, shapes: Vec::new(), frames: Vec::new() };
-    let mut pen = Pen { drawing: &mut drawing, page, t: page.text, k: 0 };
+    let mut pen = Pen { drawing: &mut drawing, page, t: page.text, k: 0, gutter: 0.0 };
     pen.all_series(series, frame, if on_map { Ink::White } else { Ink::Ground });
     drawing.shapes
 }
@@ -224,7 +233,7 @@ pub fn over(frame: &Frame, series: &[Series], page: &Page, on_map: bool) -> Vec<
 fn words(drawing: &mut Drawing, chart: &Chart, page: &Page, whole: Rect) -> Rect {
     let t = page.text;
     let side = 2.7 * t;
-    let mut pen = Pen { drawing, page, t, k: 0 };
+    let mut pen = Pen { drawing, page, t, k: 0, gutter: 0.0 };
     let (left, right) = (whole.left + side, whole.right - side);
     if !chart.title.is_empty() {
         let at = [left, whole.top + 2.6 * t];
@@ -240,11 +249,16 @@ fn words(drawing: &mut Drawing, chart: &Chart, page: &Page, whole: Rect) -> Rect
     Rect { left, right, top: whole.top + 4.2 * t, bottom: foot - 0.9 * t }
 }
 
-/// Places of panels: side by side where there is the width, else above each other.
+/// Places of panels: side by side where there is the width, else above each other; four of them two by two where there is the width.
 #[must_use]
 pub fn places(space: Rect, count: usize, t: f64) -> Vec<Rect> {
     let of = count.max(1) as f64;
     let beside = space.width() > 1.15 * space.height();
+    if beside && count == 4 {
+        let middle = 0.5 * (space.top + space.bottom);
+        let rows = [Rect { bottom: middle - 0.6 * t, ..space }, Rect { top: middle + 0.6 * t, ..space }];
+        return rows.into_iter().flat_map(|row| places(row, 2, t)).collect();
+    }
     let gap = if beside { 2.4 * t } else { 1.2 * t };
     let part = (if beside { space.width() } else { space.height() } - gap * (of - 1.0)) / of;
     let place = |k: usize| {
@@ -280,6 +294,8 @@ struct Pen<'a> {
     t: f64,
     /// Place of the panel in the chart.
     k: usize,
+    /// The least room for the labels of vertical axes, points.
+    gutter: f64,
 }
 
 impl Pen<'_> {
@@ -320,6 +336,12 @@ impl Pen<'_> {
         self.asides(panel, &frame);
     }
 
+    /// A panel without its head and the labels of its horizontal axis: those of the vertical axis need its height, which hardly
+    /// depends on them.
+    fn below_head(&self, place: &Rect) -> Rect {
+        Rect { top: place.top + 0.7 * self.t, bottom: place.bottom - 3.2 * self.t, ..*place }
+    }
+
     /// The place of a panel's data, and whether title and note stand on one line.
     fn divide(&self, panel: &Panel, place: Rect) -> (Rect, bool) {
         let t = self.t;
@@ -330,10 +352,8 @@ impl Pen<'_> {
         }
         let beside = if panel.map.is_some() { self.bar_room(panel) } else { 0.9 * t };
         let right = place.right - beside - self.aside_room(panel);
-        let mut data = Rect { left: place.left, right, top: place.top, bottom: place.bottom - 3.2 * t };
-        // Labels of the vertical axis need its height, which hardly depends on them.
-        data.top = place.top + 0.7 * t;
-        data.left += self.gutter(panel, &data);
+        let mut data = Rect { right, ..self.below_head(&place) };
+        data.left += self.gutter(panel, &data).max(self.gutter);
         let room = place.right - data.left;
         let one = width(&panel.title, 1.07 * t, true) + width(&panel.note, 0.9 * t, false) + t <= data.width();
         let mut head = match (panel.title.is_empty(), panel.note.is_empty()) {
@@ -403,6 +423,22 @@ mod tests {
         assert!((x - y).abs() < 1e-9);
         let [left, right] = [frame.data.left, page.size[0] - frame.data.right];
         assert!((left - right).abs() < 80.0, "it stands in the middle: {left} {right}");
+    }
+
+    #[test]
+    fn panels_over_one_axis_begin_in_line_and_four_stand_two_by_two() {
+        let panel = |top: f64| {
+            let x = Axis { range: Some([0.0, 1.0]), ..axis("x") };
+            Panel::new(x, Axis { range: Some([0.0, top]), ..axis("y") })
+        };
+        let frames =
+            |panels: Vec<Panel>, size| layout(&Chart { panels, ..Chart::default() }, &Page::screen(size, 11.0)).frames;
+        let column = frames(vec![panel(0.001), panel(1000.0)], [400.0, 600.0]);
+        assert!(column[0].data.bottom < column[1].data.top && column[0].data.left == column[1].data.left);
+        let four = frames(vec![panel(1.0), panel(1.0), panel(1.0), panel(1.0)], [800.0, 600.0]);
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| four[k].data);
+        assert!(a.right < b.left && c.right < d.left && a.bottom < c.top && b.bottom < d.top);
+        assert!(a.left == c.left && b.top == a.top);
     }
 
     #[test]

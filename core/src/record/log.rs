@@ -11,27 +11,28 @@ pub mod frame;
 pub mod gather;
 pub mod header;
 pub mod mcap;
+pub mod remote;
 pub mod report;
 pub mod rotation;
 pub mod text;
 pub mod units;
 pub mod write;
 
-pub use assemble::{Assembled, Commands, Outlook, Rate, Setup, assemble};
+pub use assemble::{Assembled, Commands, Rate, Setup, assemble};
 pub use error::LogError;
 pub use gather::Track;
 pub use header::{Column, Mapping, Origin, Role};
 pub use report::{Count, Happening, Place, Report};
 
 use mcap::{McapReader, Topic};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use text::TextReader;
 
 /// The largest log that is read, bytes.
 pub const MAX_BYTES: u64 = 1 << 30;
 
 /// How a log is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Format {
     /// Columns with a header.

@@ -4,6 +4,7 @@ use super::{Anew, Run, Sample};
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
 use crate::detect::{Crossing, Detection, Event, Settings, judge};
+use crate::model::Configuration;
 use crate::record::{Entry, Recording};
 use crate::scenario::Plan;
 
@@ -71,6 +72,19 @@ impl Run {
     #[must_use]
     pub fn is_recorded(&self) -> bool {
         self.recording.truth.is_none()
+    }
+
+    /// The configuration last commanded at a place in the run: a log may have gaps. Straight in a run without any command.
+    ///
+    /// # Panics
+    /// When `k` is not below [`Run::len`].
+    #[must_use]
+    pub fn commanded(&self, k: usize) -> Configuration {
+        let (before, after) = self.recording.entries.split_at(k + 1);
+        let known = |entry: &&Entry| entry.configuration.bend().is_finite();
+        let found = before.iter().rev().find(known).or_else(|| after.iter().find(known));
+        let straight = || Configuration::new(0.0, self.plan.scenario().motion.delta);
+        found.map_or_else(straight, |entry| entry.configuration)
     }
 
     /// Judges a recording that cannot be made again.
@@ -145,5 +159,12 @@ mod tests {
         assert_eq!((known[9], known[10]), (5999, 6600));
         assert_eq!(run.sample(6700).judgement.deviation, simulated.sample(6700).judgement.deviation);
         assert!(run.sample(6050).judgement.residual.is_finite(), "the load cells are there");
+        let mut recording = run.recording.clone();
+        for entry in &mut recording.entries[6000..6100] {
+            entry.configuration = Configuration::new(f64::NAN, f64::NAN);
+        }
+        let run = Run::recorded(simulated.plan.clone(), recording).expect("entries");
+        assert_eq!(run.commanded(6050), simulated.recording.entries[5999].configuration);
+        assert_eq!(run.commanded(6100), simulated.recording.entries[6100].configuration);
     }
 }

@@ -11,7 +11,7 @@ mod percent;
 mod read;
 
 pub use page::{PAGE_KEYS, Page, PageKey};
-pub use read::{Broken, Why};
+pub use read::{Broken, Why, no_key, read_text};
 
 use crate::scenario::keys::{KEYS, Key, Value};
 use crate::scenario::preset::{PRESETS, Preset};

@@ -1,10 +1,11 @@
 //! A run over time as panels: what each detector judges, with what it is compared with, and the tangent angle.
 
+pub mod between;
 pub mod range;
 
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Panel, Role, Series, Span, Style, Vertical};
-use crate::detect::{Event, Method, Standing};
+use crate::detect::{Detection, Event, Method, Standing};
 use crate::run::{Run, Sample};
 use crate::scenario::{Thresholds, Xi1Rule};
 
@@ -129,9 +130,8 @@ pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
     let Measure { symbol, name, scale, si_unit, unit, role, .. } = measure(method);
     let y = Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) };
     let mut panel = Panel { title: name.into(), off_scale: true, ..over_time(run, y) };
-    let armed = thresholds.armed_from.clamp(0.0, end(run));
-    panel.spans.push(Span { name: "not armed", role: Role::Aside, low: false, ends: [0.0, armed] });
-    panel.spans.extend(held(run, true));
+    panel.spans.push(unarmed([0.0, end(run)], thresholds.armed_from));
+    panel.spans.extend(held(&contacts(run), true));
     let mut all = curves(method, thresholds).into_iter();
     let judged = all.next();
     for Curve { name, role, style, value } in all {
@@ -156,14 +156,22 @@ pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
 #[must_use]
 pub fn angle(run: &Run) -> Panel {
     let motion = &run.plan.scenario().motion;
-    let (a, b) = (motion.theta_start, motion.theta_end);
+    let points = run.samples().map(|sample| [sample.time, sample.theta_l]).collect();
+    bent(over_time(run, angles([motion.theta_start, motion.theta_end])), &contacts(run), points)
+}
+
+/// The axis of θL between two angles.
+pub(super) fn angles([a, b]: [f64; 2]) -> Axis {
     let margin = MARGIN * (a - b).abs().max(LEAST);
     let range = Some([a.min(b) - margin, a.max(b) + margin]);
-    let y = Axis { range, steps: Steps::Degrees, ..Axis::new("θ_L", "rad", "°", 180.0 / std::f64::consts::PI) };
-    let mut panel = Panel { title: "Tangent angle".into(), ..over_time(run, y) };
-    panel.spans.extend(held(run, false));
-    panel.spans.extend(held(run, true).map(|span| Span { name: "", ..span }));
-    let points = run.samples().map(|sample| [sample.time, sample.theta_l]).collect();
+    Axis { range, steps: Steps::Degrees, ..Axis::new("θ_L", "rad", "°", 180.0 / std::f64::consts::PI) }
+}
+
+/// A panel with θL and the times during which a contact holds.
+pub(super) fn bent(mut panel: Panel, contacts: &[[f64; 2]], points: Vec<[f64; 2]>) -> Panel {
+    panel.title = "Tangent angle".into();
+    panel.spans.extend(held(contacts, false));
+    panel.spans.extend(held(contacts, true).map(|span| Span { name: "", ..span }));
     panel.series.push(Series::new("θ_L", Role::Robot, Style::Line, points));
     panel
 }
@@ -172,8 +180,14 @@ pub fn angle(run: &Run) -> Panel {
 /// detection is made of has its colour.
 #[must_use]
 pub fn events(run: &Run, method: Method) -> Vec<Series> {
-    let own = || run.judged.events.iter().filter(|event| event.detector == method);
-    let role = |event: &Event| if is_detection(run, event) { Role::Detection } else { measure(method).role };
+    marks(&run.judged.events, run.detection(), method)
+}
+
+/// The same of events in their order, with the detection that is made of one of them.
+pub(super) fn marks(events: &[Event], detection: Option<Detection>, method: Method) -> Vec<Series> {
+    let own = || events.iter().filter(|event| event.detector == method);
+    let found = |event: &Event| event.detection.is_some() && event.detection == detection;
+    let role = |event: &Event| if found(event) { Role::Detection } else { measure(method).role };
     let cleared = own().filter_map(|event| Some([event.cleared?, event.threshold])).collect();
     let mut all = vec![Series::new("cleared", measure(method).role, Style::Circles, cleared)];
     let raised = own().map(|event| (role(event), [event.raised, event.threshold]));
@@ -189,8 +203,13 @@ pub fn is_detection(run: &Run, event: &Event) -> bool {
 
 /// A panel over the time of a run, with its detection.
 fn over_time(run: &Run, y: Axis) -> Panel {
-    let x = Axis { range: Some([0.0, end(run)]), ..Axis::new("Time", "s", "s", 1.0) };
-    let detection = run.detection().map(|found| Vertical { name: "detection", x: found.time, role: Role::Detection });
+    timed([0.0, end(run)], y, run.detection())
+}
+
+/// A panel over times (s), with a detection.
+pub(super) fn timed(ends: [f64; 2], y: Axis, detection: Option<Detection>) -> Panel {
+    let x = Axis { range: Some(ends), ..Axis::new("Time", "s", "s", 1.0) };
+    let detection = detection.map(|found| Vertical { name: "detection", x: found.time, role: Role::Detection });
     Panel { verticals: detection.into_iter().collect(), ..Panel::new(x, y) }
 }
 
@@ -200,8 +219,14 @@ pub fn end(run: &Run) -> f64 {
     run.sample(run.len() - 1).time
 }
 
-fn held(run: &Run, low: bool) -> impl Iterator<Item = Span> {
-    contacts(run).into_iter().map(move |ends| Span { name: "contact", role: Role::Contact, low, ends })
+/// Times during which a contact holds, as spans.
+pub(super) fn held(contacts: &[[f64; 2]], low: bool) -> impl Iterator<Item = Span> {
+    contacts.iter().map(move |&ends| Span { name: "contact", role: Role::Contact, low, ends })
+}
+
+/// Times before alarms are armed, as a span.
+pub(super) fn unarmed([from, to]: [f64; 2], armed_from: f64) -> Span {
+    Span { name: "not armed", role: Role::Aside, low: false, ends: [from, armed_from.clamp(from, to.max(from))] }
 }
 
 /// Truth: times during which a contact holds the backbone, s.

@@ -6,6 +6,7 @@ pub mod contour;
 mod course;
 
 use super::{Job, Progress};
+use crate::chart::csv;
 use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Configuration, Covector, Segment};
 use crate::plant::moved_part;
@@ -49,6 +50,18 @@ impl ContactMap {
     #[must_use]
     pub fn nearest(&self, arc_length: f64, bend: f64) -> Option<(usize, usize)> {
         Some((index(&self.bends, bend)?, index(&self.arc_lengths, arc_length)?))
+    }
+
+    /// Every cell as CSV, a row each, units in the header.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let columns = self.bends.len();
+        let row = |cell: usize| {
+            let (row, column) = (cell / columns, cell % columns);
+            [self.arc_lengths[row], self.bends[column], self.deviation[cell], self.epsilon[cell]]
+        };
+        let header = ["arc_length [m]", "bend [rad]", "largest_xi2 [m]", "largest_epsilon_tau [1]"];
+        csv::table(header, (0..self.deviation.len()).map(row))
     }
 }
 

@@ -4,6 +4,7 @@
 //! detected, at which θL, and where along the backbone it was placed.
 
 pub mod chart;
+pub mod export;
 
 use super::seed::repeat_seed;
 use super::{Job, Progress};

@@ -1,97 +1,235 @@
-//! What the detectors hold against their thresholds over time, as a chart: of a log, or of any run.
+//! What the detectors hold against their thresholds over time, and the tangent angle, as a chart: of a run or of a log.
+//!
+//! It looks as the live plots do, but takes samples one by one and keeps few points of each curve, so that a long run needs no more
+//! memory than a short one.
 
-use super::course::{Measure, measure};
+use super::course::{Curve, Measure, angles, bent, curves, held, marks, measure, timed, unarmed};
 use super::figure::thin::Thinner;
-use super::figure::words::{MILLI, millimetres, plain, robot, time};
-use crate::chart::{Axis, Chart, Panel, Role, Series, Span, Style, Vertical};
-use crate::detect::{Event, Method, Standing};
-use crate::run::Sample;
-use crate::scenario::Scenario;
+use super::figure::words;
+use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
+use crate::detect::{Detection, Event, Method, Standing};
+use crate::run::{Run, Sample};
+use crate::scenario::{Plan, Scenario};
 
 /// An axis reaches at least this many times the threshold, and this many times what is judged.
 const HEADROOM: [f64; 2] = [1.6, 1.1];
 /// It never reaches more than this many times the threshold.
 const MOST: f64 = 4.0;
+/// More events than this are no longer told apart.
+const MOST_EVENTS: usize = 200;
+/// What a simulated run's chart is called.
+const TITLE: &str = "Contact detection over time";
 
 /// Takes samples one by one.
 #[derive(Debug)]
 pub struct Timeline {
     scenario: Scenario,
-    panels: Vec<(Method, Thinner, Thinner)>,
-    /// Largest value judged and largest threshold, by detector.
-    highest: Vec<[f64; 2]>,
+    detectors: Vec<Detector>,
+    bend: Thinner,
+    /// Smallest and largest θL, rad.
+    bends: Option<[f64; 2]>,
+    /// Times during which a contact holds, s, and whether one does.
+    contacts: Vec<[f64; 2]>,
+    touches: bool,
     ends: Option<[f64; 2]>,
+}
+
+/// What is kept of one detector.
+#[derive(Debug)]
+struct Detector {
+    method: Method,
+    /// Behind what is judged, what that is compared with.
+    beside: Vec<(Curve, Thinner)>,
+    /// Where nothing is judged, and where something is.
+    silent: Thinner,
+    judged: Thinner,
+    threshold: Thinner,
+    /// Largest value judged, and largest threshold.
+    highest: f64,
+    most: f64,
 }
 
 impl Timeline {
     /// For at most `samples` of the given detectors.
     #[must_use]
     pub fn new(scenario: &Scenario, detectors: &[Method], samples: usize) -> Self {
-        let panel = |detector: &Method| (*detector, Thinner::new(samples), Thinner::new(samples));
+        let thin = || Thinner::new(samples);
+        let detector = |&method: &Method| Detector {
+            method,
+            beside: curves(method, &scenario.detection).into_iter().skip(1).map(|curve| (curve, thin())).collect(),
+            silent: thin(),
+            judged: thin(),
+            threshold: thin(),
+            highest: 0.0,
+            most: 0.0,
+        };
         Self {
             scenario: scenario.clone(),
-            panels: detectors.iter().map(panel).collect(),
-            highest: vec![[0.0; 2]; detectors.len()],
+            detectors: detectors.iter().map(detector).collect(),
+            bend: thin(),
+            bends: None,
+            contacts: Vec::new(),
+            touches: false,
             ends: None,
         }
     }
 
     /// The next sample.
     pub fn push(&mut self, sample: &Sample) {
-        let thresholds = &self.scenario.detection;
-        self.ends = Some([self.ends.map_or(sample.time, |[first, _]| first), sample.time]);
-        for ((method, values, limits), [highest, most]) in self.panels.iter_mut().zip(&mut self.highest) {
-            let statistic = method.statistic(&sample.judgement, sample.time, thresholds);
-            let shown = if statistic.standing == Standing::Silent { f64::NAN } else { statistic.value };
+        let (thresholds, time) = (&self.scenario.detection, sample.time);
+        self.ends = Some([self.ends.map_or(time, |[first, _]| first), time]);
+        self.bend.push([time, sample.theta_l]);
+        let [low, high] = self.bends.unwrap_or([sample.theta_l; 2]);
+        self.bends = Some([low.min(sample.theta_l), high.max(sample.theta_l)]);
+        match self.contacts.last_mut() {
+            Some(contact) if sample.in_contact && self.touches => contact[1] = time,
+            _ if sample.in_contact => self.contacts.push([time; 2]),
+            _ => {}
+        }
+        self.touches = sample.in_contact;
+        for detector in &mut self.detectors {
+            let Detector { method, beside, silent, judged, threshold, highest, most } = detector;
+            let statistic = method.statistic(&sample.judgement, time, thresholds);
+            let (shown, hidden) = match statistic.standing {
+                Standing::Silent => (f64::NAN, statistic.value),
+                _ => (statistic.value, f64::NAN),
+            };
             *highest = highest.max(statistic.counted().unwrap_or(0.0));
-            values.push([sample.time, shown]);
+            judged.push([time, shown]);
+            silent.push([time, hidden]);
             let limit = method.threshold(&sample.judgement, thresholds).unwrap_or(f64::NAN);
             *most = most.max(limit);
-            limits.push([sample.time, limit]);
+            threshold.push([time, limit]);
+            for (curve, points) in beside {
+                points.push([time, (curve.value)(sample, thresholds)]);
+            }
         }
     }
 
     /// The chart, with the events of its detectors.
     #[must_use]
-    pub fn finish(self, title: String, events: &[Event]) -> Chart {
-        let Self { scenario, panels, highest, ends } = self;
-        let ends = ends.unwrap_or([0.0, 1.0]);
-        let armed = scenario.detection.armed_from.min(ends[1]);
-        let unarmed = (armed > ends[0]).then_some(Span {
-            name: "not armed",
-            role: Role::Aside,
-            low: false,
-            ends: [ends[0], armed],
-        });
-        let panel = |((method, values, limits), [highest, most]): ((Method, Thinner, Thinner), [f64; 2])| {
-            let Measure { symbol, threshold, scale, si_unit, unit, role, .. } = measure(method);
-            let reach = HEADROOM[1] * highest;
-            let top = if most > 0.0 { reach.clamp(HEADROOM[0] * most, MOST * most) } else { reach };
-            let top = if top > 0.0 { top } else { 1e-3 };
-            let series = vec![
-                Series::new(symbol, role, Style::Line, values.finish()),
-                Series::new(threshold, Role::Bound, Style::Dashed, limits.finish()),
-            ];
-            let own = events.iter().filter(|event| event.detector == method);
-            let raised = own.map(|event| Vertical { name: "event raised", x: event.raised, role: Role::Detection });
-            Panel {
-                spans: unarmed.clone().into_iter().collect(),
-                series: series.into_iter().filter(|series| !series.points.is_empty()).collect(),
-                verticals: raised.take(MOST_EVENTS).collect(),
-                ..Panel::new(
-                    Axis { range: Some(ends).filter(|[from, to]| to > from), ..time() },
-                    Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) },
-                )
-            }
-        };
-        let detection = &scenario.detection;
-        let xi2 = detection.xi2.value().map_or_else(|| "off".into(), millimetres);
-        let xi1 = detection.xi1.value().map_or_else(|| "off".into(), |xi1| format!("{} mN·m", plain(xi1 * MILLI)));
-        let (length, from) = (scenario.filter.length, plain(detection.armed_from));
-        let caption = format!("{}; N = {length}; ξ1 = {xi1}, ξ2 = {xi2}, armed from {from} s.", robot(&scenario));
-        Chart { title, panels: panels.into_iter().zip(highest).map(panel).collect(), caption }
+    pub fn finish(self, title: String, caption: String, events: &[Event]) -> Chart {
+        let ends = self.ends.filter(|[from, to]| to > from).unwrap_or([0.0, 1.0]);
+        let detection = Detection::first(events);
+        let armed_from = self.scenario.detection.armed_from;
+        let mut panels = Vec::new();
+        for detector in self.detectors {
+            let method = detector.method;
+            let mut panel = detector.panel(ends, detection);
+            panel.spans.extend(Some(unarmed(ends, armed_from)).filter(|span| span.ends[1] > span.ends[0]));
+            panel.spans.extend(held(&self.contacts, true));
+            let few = &events[..events.len().min(MOST_EVENTS)];
+            panel.series.extend(marks(few, detection, method));
+            panel.series.retain(|series| !series.points.is_empty());
+            panels.push(panel);
+        }
+        let axis = angles(self.bends.unwrap_or([0.0; 2]));
+        panels.push(bent(timed(ends, axis, detection), &self.contacts, self.bend.finish()));
+        Chart { title, panels, caption }
     }
 }
 
-/// More events than this are no longer told apart.
-const MOST_EVENTS: usize = 200;
+impl Detector {
+    /// What was judged with its threshold, without the events.
+    fn panel(self, ends: [f64; 2], detection: Option<Detection>) -> Panel {
+        let Self { method, beside, silent, judged, threshold: limits, highest, most } = self;
+        let Measure { symbol, name, threshold, scale, si_unit, unit, role, .. } = measure(method);
+        let reach = HEADROOM[1] * highest;
+        let top = if most > 0.0 { reach.clamp(HEADROOM[0] * most, MOST * most) } else { reach };
+        let top = if top > 0.0 { top } else { 1e-3 };
+        let y = Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) };
+        let mut panel = Panel { title: name.into(), off_scale: true, ..timed(ends, y, detection) };
+        let beside = beside.into_iter();
+        panel.series = beside.map(|(of, kept)| Series::new(of.name, of.role, of.style, kept.finish())).collect();
+        let line = |name: &str, points| Series::new(name, role, Style::Line, points);
+        panel.series.push(Series { faint: true, ..line("", silent.finish()) });
+        panel.series.push(line(symbol, judged.finish()));
+        panel.series.push(Series::new(threshold, Role::Bound, Style::Dashed, limits.finish()));
+        panel
+    }
+}
+
+/// A finished run as a chart.
+#[must_use]
+pub fn chart(run: &Run) -> Chart {
+    let mut timeline = Timeline::new(run.plan.scenario(), Method::ALL, run.len());
+    run.samples().for_each(|sample| timeline.push(&sample));
+    match run.is_recorded() {
+        true => timeline.finish(TITLE.into(), judged(run.plan.scenario()), run.events()),
+        false => simulated(timeline, &run.plan, run.events()),
+    }
+}
+
+/// The chart of a run that has been simulated sample by sample.
+#[must_use]
+pub fn simulated(timeline: Timeline, plan: &Plan, events: &[Event]) -> Chart {
+    let scenario = plan.scenario();
+    let made = [
+        words::robot(scenario),
+        words::motion(scenario),
+        words::contact(plan),
+        words::cells(scenario),
+        words::tracker(scenario),
+        words::thresholds(scenario),
+        words::seed(scenario, 1),
+    ];
+    timeline.finish(TITLE.into(), words::caption(&made), events)
+}
+
+/// What a log was judged by, in words.
+#[must_use]
+pub fn judged(scenario: &Scenario) -> String {
+    let length = scenario.filter.length;
+    format!("{}; N = {length}; {}.", words::robot(scenario), words::thresholds(scenario))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::{Simulation, simulate};
+    use crate::scenario::preset::{PRESETS, find};
+
+    #[test]
+    fn a_run_kept_and_one_that_streams_give_the_same_chart() {
+        for preset in PRESETS {
+            let scenario = preset.scenario().expect("valid");
+            let plan = Plan::new(&scenario).expect("possible");
+            let mut simulation = Simulation::new(&plan);
+            let mut timeline = Timeline::new(&scenario, Method::ALL, plan.samples());
+            for sample in simulation.by_ref() {
+                timeline.push(&sample);
+            }
+            let streamed = simulated(timeline, &plan, simulation.events());
+            let kept = chart(&simulate(&scenario).expect("possible"));
+            // Gaps are NaN, which equals nothing.
+            assert_eq!(format!("{streamed:?}"), format!("{kept:?}"), "{}", preset.name);
+        }
+    }
+
+    #[test]
+    fn thresholds_events_and_the_truth_are_drawn() {
+        let run = simulate(&find("bench").and_then(|preset| preset.scenario()).expect("a preset")).expect("a run");
+        let chart = chart(&run);
+        let [centrode, forces, angle] = &chart.panels[..] else { panic!("{} panels", chart.panels.len()) };
+        for (panel, method) in [(centrode, Method::Fcd), (forces, Method::Jfd)] {
+            let name = measure(method).threshold;
+            let line = panel.series.iter().find(|series| series.name == name).expect("a threshold");
+            let set = method.threshold(&run.sample(0).judgement, &run.judged.settings.thresholds);
+            assert!(line.points.iter().all(|point| Some(point[1]) == set), "{method:?}");
+            let raised = panel.series.iter().filter(|series| series.name == "raised").count();
+            assert_eq!(raised, run.events().iter().filter(|event| event.detector == method).count());
+            assert!(panel.series.iter().all(|series| series.points.len() <= 1000));
+        }
+        let truth = run.contact_time().expect("contact");
+        assert!(angle.spans.iter().any(|span| span.ends[0] == truth));
+        assert!(chart.caption.contains("ξ1 = 30 mN·m, ξ2 = 7 mm"), "{}", chart.caption);
+    }
+
+    #[test]
+    fn without_samples_or_thresholds_there_are_still_axes() {
+        let scenario = Scenario::default();
+        let empty = Timeline::new(&scenario, Method::ALL, 0).finish(String::new(), String::new(), &[]);
+        assert_eq!(empty.panels.len(), 3);
+        assert!(empty.panels.iter().all(|panel| panel.x.range == Some([0.0, 1.0])));
+    }
+}

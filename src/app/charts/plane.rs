@@ -101,7 +101,7 @@ fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
     let mut entries = vec![
         entry(Form::Triangle, theme.model, "c_m model"),
         entry(Form::Dot, theme.sensor, "c_s sensor"),
-        entry(Form::Solid, theme.robot, "true shape"),
+        entry(Form::Solid, theme.robot, if run.is_recorded() { "as commanded" } else { "true shape" }),
     ];
     if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));

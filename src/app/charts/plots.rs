@@ -4,6 +4,7 @@
 //! Thresholds are lines that can be dragged, typed and switched off; the playback position is scrubbed anywhere else.
 
 mod axis;
+mod between;
 mod frame;
 mod marks;
 mod panels;
@@ -13,6 +14,8 @@ pub use axis::{Axis, Steps};
 
 use crate::app::charts::paint::{Picture, Place, page};
 use crate::app::command::Command;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use crate::app::theme::Theme;
 use centrode_core::chart::layout::Page;
 use centrode_core::chart::{Chart, Series};
@@ -25,6 +28,8 @@ use std::collections::BTreeMap;
 
 /// From this width on the plots stand side by side.
 const SIDE_BY_SIDE: f32 = 780.0;
+/// In a frame, where scrolling is the host page's, from this width on before they would have to be scrolled.
+const FRAMED_SIDE_BY_SIDE: f32 = 480.0;
 /// Plots: one for each detector, and the tangent angle.
 const COUNT: usize = Method::ALL.len() + 1;
 /// Least heights of the plots when stacked, in points: of the first, of the others, and of the last.
@@ -37,6 +42,8 @@ const GAP: f32 = 10.0;
 /// What the plots remember between frames; nothing of it is an input of the experiment.
 #[derive(Default)]
 pub struct PlotState {
+    /// Whether they stand in the frame of another page.
+    pub(crate) framed: bool,
     /// Time under the pointer, s: shown in all plots.
     hover: Option<f64>,
     /// Thresholds as they are when switched on again, SI; the page remembers them, not the plots.
@@ -49,8 +56,20 @@ pub struct PlotState {
     pictures: [Option<Picture<Key>>; COUNT],
     /// Distance from the pointer to what it holds when a drag starts, points.
     grip: f32,
+    /// The times A and B, s; the page remembers them, not the plots.
+    pub marks: [Option<f64>; 2],
+    /// In which plot A and B are being set with the pointer, and where that began, points.
+    measured: Option<(usize, f32)>,
     /// What a touch that began on a plot turned out to be.
     touch: Touch,
+}
+
+impl PlotState {
+    /// Of plots that stand in the frame of another page, or in a page of their own.
+    #[must_use]
+    pub fn new(framed: bool) -> Self {
+        Self { framed, ..Self::default() }
+    }
 }
 
 /// What a plot is made of: the run's version, its top, and whether its times have no numbers.
@@ -69,7 +88,9 @@ enum Touch {
 pub fn plots(ui: &mut Ui, (run, version): (&Run, u64), cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
     let space = ui.available_size();
     let beside = space.x >= SIDE_BY_SIDE && !(space.y.is_finite() && space.y > 0.9 * space.x);
-    let least = if beside { LEAST_ROW } else { least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP };
+    let stacked = least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP;
+    let beside = beside || state.framed && space.x >= FRAMED_SIDE_BY_SIDE && space.y < stacked;
+    let least = if beside { LEAST_ROW } else { stacked };
     let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
     if space.y < least {
         let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);
@@ -114,14 +135,22 @@ fn in_place(
         let page = Page { sides, pixel: f64::from(1.0 / ui.pixels_per_point()), ..page(SMALL) };
         let places = picture.show(ui.painter(), &theme, Frame::below_title(rect), page);
         if let Some(place) = places.into_iter().next() {
-            let frame = Frame::new(
+            let mut frame = Frame::new(
                 rect,
                 &place,
                 method.map_or(180.0 / std::f64::consts::PI, |m| course::measure(m).scale),
                 theme,
             );
+            // In the corner of the card.
+            if which == if beside { COUNT - 1 } else { 0 } {
+                let corner = pos2(rect.right() - 0.5 * save::BUTTON, rect.top() + 9.0);
+                let button = Rect::from_center_size(corner, Vec2::splat(save::BUTTON - 2.0));
+                save::menu_with(ui, button, Subject::Plots, state.marks.iter().all(Option::is_some), out);
+                frame.tool = save::BUTTON - RIGHT;
+            }
             let (state, out) = (&mut *state, &mut *out);
-            let mut view = View { run, cursor, hovered, frame, place, picture, which, top, state, out };
+            let marks = state.marks;
+            let mut view = View { run, cursor, marks, hovered, frame, place, picture, which, top, state, out };
             match method {
                 Some(method) => panels::judging(ui, &mut view, method),
                 None => panels::angle(ui, &mut view),
@@ -153,6 +182,8 @@ fn top(state: &mut PlotState, (run, version): (&Run, u64), method: Method) -> f6
 struct View<'a> {
     run: &'a Run,
     cursor: f64,
+    /// The times A and B, s.
+    marks: [Option<f64>; 2],
     /// Time under the pointer in the frame before, s.
     hovered: Option<f64>,
     frame: Frame,

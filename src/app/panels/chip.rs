@@ -28,7 +28,7 @@ impl Chip {
             self.phase = Some(phase);
         }
         let color = match phase {
-            Phase::Free => theme.dim,
+            Phase::Free | Phase::Quiet => theme.dim,
             Phase::Contact => theme.obstacle,
             Phase::Detected | Phase::FalseAlarm => theme.detection,
         };
@@ -53,7 +53,7 @@ impl Chip {
         let edge = match phase {
             Phase::Detected => Stroke::new(1.0, color),
             Phase::FalseAlarm => Stroke::new(2.0, color),
-            Phase::Free | Phase::Contact => Stroke::new(1.0, theme.faint),
+            Phase::Free | Phase::Contact | Phase::Quiet => Stroke::new(1.0, theme.faint),
         };
         ui.painter().rect(rect, 15.0, ground, edge, egui::StrokeKind::Inside);
         let ink = if !filled {
@@ -66,7 +66,7 @@ impl Chip {
         let dot = rect.left_center() + vec2(16.0, 0.0);
         let diamond = || [vec2(0.0, -6.0), vec2(6.0, 0.0), vec2(0.0, 6.0), vec2(-6.0, 0.0)].map(|v| dot + v).to_vec();
         match phase {
-            Phase::Free => ui.painter().circle_stroke(dot, 4.5, Stroke::new(2.0, color)),
+            Phase::Free | Phase::Quiet => ui.painter().circle_stroke(dot, 4.5, Stroke::new(2.0, color)),
             Phase::Contact => ui.painter().circle_filled(dot, 5.0, color),
             Phase::Detected => ui.painter().add(egui::Shape::convex_polygon(diamond(), ink, Stroke::NONE)),
             Phase::FalseAlarm => ui.painter().add(egui::Shape::closed_line(diamond(), Stroke::new(1.8, color))),

@@ -54,7 +54,9 @@ pub fn notice(ui: &mut Ui, notice: &Notice, out: &mut Vec<Command>) {
         ui.label(RichText::new(&notice.title).font(fonts::strong(18.0)).color(theme.ink));
         ui.add_space(4.0);
         said(ui, &notice.text, dim);
-        ScrollArea::vertical().max_height((screen.height() - 230.0).max(80.0)).show(ui, |ui| {
+        // As high as it may be at once: it would grow frame by frame, and its buttons would move away from the pointer.
+        let height = (screen.height() - 230.0).max(80.0);
+        ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(width - 8.0);
             for Row { written, why, used } in &notice.rows {
                 ui.add_space(8.0);

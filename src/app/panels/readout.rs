@@ -3,20 +3,25 @@
 use egui::{Align2, ScrollArea, Sense, Ui, vec2};
 
 use crate::app::fonts;
+use crate::app::memo::recorded::Recorded;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
+use crate::app::words::log;
 use crate::app::words::story::{self, Figure};
 use centrode_core::run::Run;
 
-/// Shows the readout.
-pub fn readout(ui: &mut Ui, run: &Run) {
+/// Shows the readout of a run, simulated or of a log.
+pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>) {
     let theme = Theme::of(ui);
+    let (words, figures) = match recorded {
+        Some(recorded) => (log::words(run, recorded), log::figures(run)),
+        None => (story::words(run), story::figures(run)),
+    };
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            ui.add(egui::Label::new(text::rich(&story::words(run), 13.5, theme.ink)).wrap());
+            ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());
             ui.add_space(10.0);
-            let figures = story::figures(run);
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);

@@ -9,7 +9,7 @@ use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
 
-const ITEMS: [(Share, &str, &str); 4] = [
+const ITEMS: [(Share, &str, &str); 5] = [
     (
         Share::CopyLink,
         "Copy link",
@@ -18,6 +18,11 @@ const ITEMS: [(Share, &str, &str); 4] = [
     (Share::CopyCommand, "Copy command", "Computes the same without a page, with the centrode command"),
     (Share::Save, "Save scenario", "What is set, as a TOML file"),
     (Share::Open, "Open scenario", "A TOML file; it can also be dropped on the page"),
+    (
+        Share::OpenLog,
+        "Open log",
+        "What a rig recorded: CSV, TUM, EuRoC, NDI or MCAP. It is read on this device and stays on it; it can also be dropped.",
+    ),
 ];
 
 /// Shows the button and, when it was clicked, the menu.

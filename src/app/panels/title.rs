@@ -128,7 +128,12 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 }
 
 /// A choice with what it shows or does; returns whether it was clicked.
-pub(super) fn item(ui: &mut Ui, role: Role, (title, summary): (&str, &str), chosen: bool, theme: &Theme) -> bool {
+pub(super) fn item(ui: &mut Ui, role: Role, texts: (&str, &str), chosen: bool, theme: &Theme) -> bool {
+    choice(ui, role, texts, chosen, theme).clicked()
+}
+
+/// The same; returns what happened to it.
+pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), chosen: bool, theme: &Theme) -> Response {
     let mut job = egui::text::LayoutJob::default();
     job.wrap.max_width = ui.available_width() - 20.0;
     let format = |font, color| egui::TextFormat { font_id: font, color, ..Default::default() };
@@ -142,5 +147,5 @@ pub(super) fn item(ui: &mut Ui, role: Role, (title, summary): (&str, &str), chos
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }
     ui.painter().galley(rect.min + vec2(10.0, 6.0), galley, theme.ink);
-    response.clicked()
+    response
 }

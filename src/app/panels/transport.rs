@@ -7,6 +7,7 @@ use crate::app::command::Command;
 use crate::app::controls::control::Scale;
 use crate::app::controls::quantity;
 use crate::app::fonts;
+use crate::app::memo;
 use crate::app::state::State;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
@@ -102,7 +103,7 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
 fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let scenario = run.plan.scenario();
-    let rail = Rail { range: (0.0, scenario.motion.end), scale: Scale::Linear(0.001) };
+    let rail = Rail { range: (0.0, memo::end(run)), scale: Scale::Linear(0.001) };
     let spoken = format!("{} s", number(cursor, 3));
     let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: cursor, notch: None, on: true };
     let (response, asked) = slider::sense(ui, rect, &shape);

@@ -3,12 +3,14 @@
 use crate::app::charts::notation::{self, job, number};
 use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::command::Command;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use centrode_core::scenario::{Contact, Place as At, Scenario};
 use centrode_core::study::map::ContactMap;
 use centrode_core::study::map::chart::{Kind, target, without_contact};
-use egui::{CursorIcon, Label, Rect, Sense, Ui};
+use egui::{CursorIcon, Label, Rect, Sense, Ui, pos2};
 
 /// Size of the chart's text, points.
 const TEXT: f32 = 11.5;
@@ -29,31 +31,35 @@ pub fn map(
     out: &mut Vec<Command>,
 ) {
     let theme = Theme::of(ui);
-    let plan = &inputs.run.plan;
+    let plan = inputs.plan;
     let nowhere = Contact { place: At::Nowhere, ..Contact::default() };
     let key = (version, Scenario { contact: nowhere, ..plan.scenario().clone() });
     let picture = Picture::keep(kept, ui.ctx(), &theme, (key, true), || without_contact(shown, plan));
     let mut words = job(&summary(shown, inputs), 12.5, theme.ink);
-    words.wrap.max_width = rect.width();
+    let told = rect.with_max_x(rect.right() - save::BUTTON - 6.0);
+    words.wrap.max_width = told.width();
     let mut hint = job(
         "Computed without noise. Contacts below the line are missed. Click or drag to put the contact there. The second map shows the \
          largest load cell error ε_τ with which Θ still exceeds ε_c, whatever error within ±ε_τ the cells share; above 50 % it has one colour.",
         11.5,
         theme.dim,
     );
-    hint.wrap.max_width = rect.width();
+    hint.wrap.max_width = told.width();
     let heights = [&words, &hint].map(|job| ui.painter().layout_job(job.clone()).size().y);
     let foot = rect.bottom() - heights.iter().sum::<f32>() - 4.0;
-    let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect.with_min_y(foot)).id_salt("words"));
+    let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(told.with_min_y(foot)).id_salt("words"));
     inner.spacing_mut().item_spacing.y = 3.0;
     inner.add(Label::new(words).wrap());
     inner.add(Label::new(hint).wrap());
+
+    let corner = pos2(rect.right() - 0.5 * save::BUTTON, foot + 0.5 * save::BUTTON - 4.0);
+    save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), Subject::Map, out);
 
     let space = rect.with_max_y(foot - 8.0);
     let painter = ui.painter().clone();
     let places = picture.show(&painter, &theme, space, paint::page(TEXT));
     let contact: Vec<_> = target(plan).into_iter().collect();
-    for (k, (kind, place)) in Kind::ALL.into_iter().zip(&places).enumerate() {
+    for (k, (&kind, place)) in Kind::ALL.iter().zip(&places).enumerate() {
         picture.over(&painter, &theme, (k, place), &contact);
         touch(ui, place, kind, shown, out, &theme);
     }
@@ -61,7 +67,7 @@ pub fn map(
 
 /// The values where the contact is, in words.
 fn summary(map: &ContactMap, inputs: &Inputs<'_>) -> String {
-    let plan = &inputs.run.plan;
+    let plan = inputs.plan;
     let Some(contact) = plan.contact() else {
         return "There is no contact now: click where it should be.".into();
     };

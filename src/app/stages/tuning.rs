@@ -11,14 +11,18 @@ use crate::app::charts::notation::job;
 use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use crate::app::stages::Inputs;
-use crate::app::stages::tuner::Cells;
+use crate::app::stages::tuner::{Cells, Tuner};
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::segmented::segmented;
 use crate::app::widgets::text::{paint, rich, width};
+use centrode_core::chart::{Chart, Role, Style};
 use centrode_core::scenario::Xi1Rule;
+use centrode_core::study::Job;
 use centrode_core::study::tuning::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Rule;
@@ -167,12 +171,37 @@ pub fn tuning(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut TuningSt
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| all(ui));
 }
 
+/// All four pictures as they were last shown, with what is set and what they were made with.
+pub fn chart(state: &TuningState, tuner: &Tuner) -> Option<Chart> {
+    let derived = state.derived.as_ref()?;
+    let rule = derived.tuning.rule;
+    let (study, cells, _) = tuner.shown(rule)?;
+    let panel = |chart: Option<&Chart>| chart.and_then(|chart| chart.panels.first()).cloned();
+    let own = tuner.own(rule);
+    let mut panels = Vec::new();
+    for (picture, at) in [(&state.operating, chart::found as curves::At), (&state.delay, chart::delay)] {
+        let mut panel = panel(picture.as_ref().map(Picture::chart))?;
+        chart::mark(&mut panel, chart::look(rule).0, Style::Dots, own.as_ref().and_then(at));
+        panels.push(panel);
+    }
+    panels.extend(panel(state.places.as_ref().map(Picture::chart)));
+    if let Some(mut panel) = panel(state.lengths.as_ref().map(Picture::chart)) {
+        let at = tuner.setting(rule).and_then(|threshold| lengths::set(study, cells, threshold));
+        chart::mark(&mut panel, Role::Detection, Style::Dots, at);
+        panels.push(panel);
+    }
+    let wish = Wish { rule, false_alarm_rate: derived.tuning.wish };
+    let advised = matches!(derived.verdict, Verdict::Take { .. });
+    let caption = chart::caption(study, &wish, advised, !study.progress().is_complete());
+    Some(Chart { title: "Thresholds and filter lengths".into(), panels, caption })
+}
+
 /// The command that makes this study, with all its numbers.
 fn command(inputs: &Inputs<'_>) -> String {
     let (name, base) = inputs.base;
     let lengths = inputs.tuner.shown(inputs.tuning.rule).map_or(&[][..], |(_, cells, _)| &cells.lengths);
     let lengths: Vec<String> = lengths.iter().map(|(length, _)| length.to_string()).collect();
-    let (scenario, hint) = if base == inputs.run.plan.scenario() {
+    let (scenario, hint) = if base == inputs.plan.scenario() {
         (format!("--preset {name}"), "")
     } else {
         ("my.toml".into(), "   (my.toml: this scenario)")
@@ -220,8 +249,10 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
             138.0,
         ),
     ];
-    let whole = ui.available_width();
+    let whole = ui.available_width() - save::BUTTON - 8.0;
     let (mut row, mut x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
+    let corner = pos2(row.right() + 8.0 + 0.5 * save::BUTTON, row.center().y);
+    save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), Subject::Tuning, out);
     for (k, (label, options, chosen, wide)) in parts.into_iter().enumerate() {
         let head = width(ui, label, fonts::regular(12.0)) + 8.0;
         let wide = if beside { wide } else { (whole - head).min(wide) };
@@ -285,8 +316,14 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
     });
 }
 
-/// Says that the page makes the runs because its helper could not.
+/// Says what is not as one would expect: that a log is not what is studied, or that the page makes the runs because its helper
+/// could not.
 fn trouble(ui: &mut Ui, inputs: &Inputs<'_>, theme: &Theme) {
+    if inputs.log {
+        let said = "This studies simulations of what is set, not the log that is shown: delays need to know when contact began, \
+                    and a log does not say. To see what a threshold makes of the log, drag its line in the plots.";
+        ui.add(Label::new(job(said, 12.5, theme.ink)).wrap());
+    }
     if let Some(why) = inputs.tuner.trouble() {
         let said = format!("The worker failed ({why}). The page makes the runs itself, between its frames.");
         ui.add(Label::new(job(&said, 12.0, theme.error)).wrap());

@@ -4,18 +4,20 @@ mod notes;
 
 use std::sync::Arc;
 
+use crate::app::command::Command;
+use crate::app::panels::save;
+use crate::app::saving::Subject;
 use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
-use crate::render::{Frame, Renderer, ViewId};
+use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Scene, Studio};
 use crate::show::track::Trace;
 use crate::show::{ViewOptions, home_camera, view};
 use centrode_core::run::Run;
-use centrode_core::scenario::Scenario;
 
 /// The ring around a fresh detection runs for this long, s of the run.
 const PULSE: f64 = 0.9;
@@ -24,20 +26,24 @@ const PULSE: f64 = 0.9;
 const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(130.0, 30.0));
 
 /// What the view remembers.
-#[derive(Debug, Default)]
+#[derive(Default)]
 pub struct ViewState {
+    gpu: Option<egui_wgpu::RenderState>,
     camera: Option<Camera>,
+    /// How it was last shown: from where, and how large in points.
+    seen: Option<(Camera, egui::Vec2)>,
+    /// A picture on its way to a file of this name.
+    saved: Option<(String, Snapshot)>,
     shown: Option<Shown>,
     version: u64,
     scene: Arc<Scene>,
-    has_gpu: bool,
     still: bool,
 }
 
 /// All that the scene depends on.
 #[derive(Debug, PartialEq)]
 struct Shown {
-    scenario: Scenario,
+    version: u64,
     time: f64,
     dark: bool,
 }
@@ -50,13 +56,48 @@ impl ViewState {
             let renderer = Renderer::new(&state.device, state.target_format);
             state.renderer.write().callback_resources.insert(renderer);
         }
-        Self { has_gpu: render_state.is_some(), still, ..Self::default() }
+        Self { gpu: render_state.cloned(), still, ..Self::default() }
+    }
+
+    /// Draws what is shown once more for a file of this name, two pixels to a point, without background and floor where it is to
+    /// be `clear`. False where there is nothing to draw with.
+    pub fn save(&mut self, name: String, clear: bool) -> bool {
+        let (Some(gpu), Some((camera, size)), Some(shown)) = (&self.gpu, &self.seen, &self.shown) else { return false };
+        let mut studio = Palette::for_dark(shown.dark).studio;
+        let mut scene = Arc::clone(&self.scene);
+        if clear {
+            (studio.inner, studio.outer) = (studio.inner.alpha(0.0), studio.outer.alpha(0.0));
+            Arc::make_mut(&mut scene).ground = None;
+        }
+        let frame = Frame {
+            view: SAVED,
+            size_px: [size.x, size.y].map(|side| (side * PIXELS).round().max(0.0) as u32),
+            pixels_per_point: PIXELS,
+            scene: &scene,
+            scene_version: 0,
+            camera,
+            studio: &studio,
+        };
+        let mut renderer = gpu.renderer.write();
+        let renderer = renderer.callback_resources.get_mut::<Renderer>();
+        let snapshot = renderer.and_then(|renderer| renderer.snapshot(&gpu.device, &gpu.queue, &frame));
+        self.saved = snapshot.map(|snapshot| (name, snapshot));
+        self.saved.is_some()
+    }
+
+    /// The picture asked for, once it is there, and the name of its file.
+    pub fn saved(&mut self, ctx: &egui::Context) -> Option<(String, Result<Pixels, Lost>)> {
+        let (gpu, (_, snapshot)) = (self.gpu.as_ref()?, self.saved.as_ref()?);
+        let pixels = snapshot.take(&gpu.device);
+        if pixels.is_none() {
+            ctx.request_repaint();
+        }
+        Some((self.saved.take_if(|_| pixels.is_some())?.0, pixels?))
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, run: &Run, trace: &Trace, time: f64, dark: bool) {
-        let scenario = run.plan.scenario();
-        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.scenario == *scenario;
+    fn update(&mut self, (run, version): (&Run, u64), trace: &Trace, time: f64, dark: bool) {
+        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.version == version;
         if self.shown.as_ref().is_some_and(same) {
             return;
         }
@@ -64,15 +105,23 @@ impl ViewState {
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
         self.scene = Arc::new(view(run, trace, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
         self.version += 1;
-        self.shown = Some(Shown { scenario: scenario.clone(), time, dark });
+        self.shown = Some(Shown { version, time, dark });
     }
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut ViewState) {
+/// `version` is another for every other run.
+pub fn viewport(
+    ui: &mut Ui,
+    (run, version): (&Run, u64),
+    trace: &Trace,
+    cursor: f64,
+    state: &mut ViewState,
+    out: &mut Vec<Command>,
+) {
     let theme = Theme::of(ui);
     let rect = ui.max_rect();
-    if !state.has_gpu {
+    if state.gpu.is_none() {
         let text = "The 3D view needs WebGPU or WebGL2.";
         ui.painter().text(rect.center(), Align2::CENTER_CENTER, text, fonts::regular(13.0), theme.dim);
         return;
@@ -82,7 +131,7 @@ pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut 
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
-    state.update(run, trace, cursor, theme.dark);
+    state.update((run, version), trace, cursor, theme.dark);
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::for_dark(theme.dark).studio;
@@ -90,8 +139,11 @@ pub fn viewport(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, state: &mut 
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
     let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
+    let file = button.translate(vec2(-36.0, 0.0));
     let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
-    notes::notes(ui, rect, &camera, run, &state.scene, vec![button, chip]);
+    notes::notes(ui, rect, &camera, run, &state.scene, vec![button, file, chip]);
+    state.seen = Some((camera, rect.size()));
+    save::menu(ui, file, Subject::View, out);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();
     // A camera is kept only when it was moved: until then it follows the robot's size.
     state.camera = (!reset && camera != home).then_some(camera);
@@ -137,8 +189,11 @@ struct Picture {
     size_px: [u32; 2],
 }
 
-/// The page has one 3D view.
+/// The page has one 3D view, and one picture of it on its way to a file.
 const VIEW: ViewId = ViewId(0);
+const SAVED: ViewId = ViewId(1);
+/// Pixels to a point in a file.
+const PIXELS: f32 = crate::show::paper::PIXELS as f32;
 
 impl egui_wgpu::CallbackTrait for Picture {
     fn prepare(

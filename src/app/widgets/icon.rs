@@ -41,6 +41,10 @@ pub enum Icon {
     Close,
     /// An arrow out of a tray.
     Share,
+    /// An arrow into a tray.
+    Save,
+    /// An arrow out of a window.
+    Open,
 }
 
 /// How a button looks.
@@ -93,6 +97,8 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Controls => "controls",
         Icon::Close => "close",
         Icon::Share => "share",
+        Icon::Save => "save",
+        Icon::Open => "open",
     }
 }
 
@@ -168,6 +174,18 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             painter.line([(-3.2, -3.2), (0.0, -6.4), (3.2, -3.2)].map(|(x, y)| p(x, y)).to_vec(), stroke);
             let tray = [(-3.4, -0.8), (-5.6, -0.8), (-5.6, 6.0), (5.6, 6.0), (5.6, -0.8), (3.4, -0.8)];
             painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
+        }
+        Icon::Save => {
+            painter.line_segment([p(0.0, -6.0), p(0.0, 2.0)], stroke);
+            painter.line([(-3.2, -0.8), (0.0, 2.4), (3.2, -0.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
+            let tray = [(-5.6, 2.4), (-5.6, 6.0), (5.6, 6.0), (5.6, 2.4)];
+            painter.line(tray.map(|(x, y)| p(x, y)).to_vec(), stroke);
+        }
+        Icon::Open => {
+            let frame = [(0.4, -4.6), (-5.2, -4.6), (-5.2, 5.4), (4.8, 5.4), (4.8, 0.2)];
+            painter.line(frame.map(|(x, y)| p(x, y)).to_vec(), stroke);
+            painter.line_segment([p(-0.8, 1.0), p(5.6, -5.4)], stroke);
+            painter.line([(2.0, -5.6), (5.8, -5.6), (5.8, -1.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
         }
         Icon::Close => {
             painter.line_segment([p(-4.2, -4.2), p(4.2, 4.2)], stroke);

@@ -55,6 +55,12 @@ pub const KEYS: &[(&str, &str)] = &[
     ("← →", "step by 0.01 s"),
     ("Shift ← →", "step by 0.1 s"),
     ("Home, End", "go to the start or the end"),
+    ("A, B", "mark the time shown"),
+    ("Shift drag", "mark A and B on a plot"),
+    ("C", "copy what changes from A to B"),
+    ("Delete", "remove A and B"),
+    ("S", "save what is on the stage"),
+    ("Shift S", "save the plots or the run"),
     ("Esc", "discard what is typed, or close this"),
 ];
 

@@ -44,6 +44,13 @@ fn used((key, value): &(&'static str, Value)) -> String {
     format!("Used instead: {name} {shown}.")
 }
 
+/// What is said of a file that was not saved.
+#[must_use]
+pub fn not_saved(name: &str, why: &str) -> Notice {
+    let title = format!("{name} was not saved");
+    Notice { text: format!("{}.", sentence(why)), rows: Vec::new(), details: format!("{title}: {why}"), title }
+}
+
 /// What is said of a file that was not opened.
 #[must_use]
 pub fn not_opened(name: &str, why: &str) -> Notice {

@@ -12,16 +12,22 @@ pub enum Phase {
     Free,
     /// The beam holds the backbone, unnoticed.
     Contact,
-    /// The centrode's deviation has crossed its threshold, after the contact.
+    /// The centrode's deviation has crossed its threshold, after the contact; in a log, any detector has raised an alarm.
     Detected,
     /// It has crossed its threshold before any contact.
     FalseAlarm,
+    /// Nothing noticed in a log, which does not say what touches.
+    Quiet,
 }
 
 impl Phase {
     /// At a time (s) of a run.
     #[must_use]
     pub fn at(run: &Run, time: f64) -> Self {
+        if run.is_recorded() {
+            let alarmed = run.events().first().is_some_and(|event| event.raised <= time);
+            return if alarmed { Self::Detected } else { Self::Quiet };
+        }
         match run.detection().filter(|detection| detection.time <= time) {
             Some(alarm) if run.contact_time().is_some_and(|contact| contact <= alarm.time) => Self::Detected,
             Some(_) => Self::FalseAlarm,
@@ -38,6 +44,7 @@ impl Phase {
             Self::Contact => "In contact",
             Self::Detected => "Detected",
             Self::FalseAlarm => "False alarm",
+            Self::Quiet => "No alarm",
         }
     }
 }

@@ -1,8 +1,9 @@
 //! How a log was read, told.
 
+use centrode_core::detect::outlook::{Outlook, outlooks};
 use centrode_core::record::log::assemble::Assembled;
 use centrode_core::record::log::frame::Fit;
-use centrode_core::record::log::{Column, Commands, Format, Log, Outlook, Rate, Report};
+use centrode_core::record::log::{Column, Commands, Format, Log, Rate, Report};
 use centrode_core::scenario::text::number;
 use serde::Serialize;
 use std::io::Write;
@@ -38,7 +39,7 @@ impl About {
             commands: assembled.commands,
             start: assembled.start,
             frame: assembled.fit,
-            detectors: assembled.outlooks.clone(),
+            detectors: outlooks(log, assembled.commands),
             report: assembled.report.clone(),
         }
     }
@@ -46,31 +47,15 @@ impl About {
     /// Above the table of a run.
     pub fn table(&self, out: &mut impl Write) -> std::io::Result<()> {
         writeln!(out, "log         {}, {} rows", self.format.name(), self.rows)?;
-        let used = |column: &Column| {
-            let role = column.role?;
-            let unit = if column.unit_given || column.unit == "1" { "" } else { " (no unit given)" };
-            let (key, name) = (role.key(), format!("{} [{}]", role.key(), column.unit));
-            let said = column.header == name || column.header == key;
-            Some(if said { name } else { format!("{:?} as {name}{unit}", column.header) })
-        };
-        let columns: Vec<String> = self.columns.iter().filter_map(used).collect();
+        let columns: Vec<String> = self.columns.iter().filter_map(Column::told).collect();
         writeln!(out, "columns     {}", columns.join(", "))?;
         let unused: Vec<&str> =
             self.columns.iter().filter(|column| column.role.is_none()).map(|column| column.header.as_str()).collect();
         if !unused.is_empty() {
             writeln!(out, "not used    {}", unused.join(", "))?;
         }
-        let from = match self.loop_rate_from {
-            Rate::Scenario => "the scenario says so",
-            Rate::Log => "from the spacing of the rows",
-        };
-        writeln!(out, "loop        {} Hz: {from}", number(self.loop_rate))?;
-        let commands = match self.commands {
-            Commands::Log => "as recorded",
-            Commands::Motion => "from the scenario's motion",
-            Commands::Estimated => "none: the bend is estimated from the measured angle, as if the robot bent freely",
-        };
-        writeln!(out, "commands    {commands}")?;
+        writeln!(out, "loop        {} Hz: {}", number(self.loop_rate), self.loop_rate_from.told())?;
+        writeln!(out, "commands    {}", self.commands.told())?;
         for outlook in self.detectors.iter().filter(|outlook| !outlook.why.is_empty()) {
             let works = if outlook.works { "works" } else { "cannot work" };
             writeln!(out, "{:<11} {works}: {}", outlook.detector.key(), outlook.why)?;

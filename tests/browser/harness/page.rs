@@ -113,6 +113,14 @@ impl Page {
         });
     }
 
+    /// Goes to an address that need not be that of the page, and waits until all of it is there.
+    #[track_caller]
+    pub fn browse(&mut self, address: &str) {
+        let result = self.chromium.call("Page.navigate", json!({ "url": address }));
+        assert!(result.get("errorText").is_none(), "{address}: {result}");
+        self.wait("the document", |page| (page.eval("document.readyState") == "complete").then_some(()));
+    }
+
     /// Gives the page another size, in CSS pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.options.size = size;

@@ -2,9 +2,6 @@
 
 mod clock;
 mod hold;
-mod outlook;
-
-pub use outlook::Outlook;
 
 use super::error::LogError;
 use super::gather::Track;
@@ -37,6 +34,29 @@ pub enum Rate {
     Log,
 }
 
+impl Rate {
+    /// In a few words.
+    #[must_use]
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::Scenario => "the scenario says so",
+            Self::Log => "from the spacing of the rows",
+        }
+    }
+}
+
+impl Commands {
+    /// In a few words.
+    #[must_use]
+    pub const fn told(self) -> &'static str {
+        match self {
+            Self::Log => "as recorded",
+            Self::Motion => "from the scenario's motion",
+            Self::Estimated => "none: the bend is estimated from the measured angle, as if the robot bent freely",
+        }
+    }
+}
+
 /// Where the commands come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -60,6 +80,8 @@ pub struct Setup {
     pub hold: Option<f64>,
     /// Where the log's frame is.
     pub frame: frame::Setting,
+    /// The most entries that are wanted; none for [`MAX_ENTRIES`], which is never exceeded.
+    pub most: Option<usize>,
 }
 
 /// A value is held for at least this long, s.
@@ -84,8 +106,6 @@ pub struct Assembled {
     pub start: f64,
     /// Where the log's frame is, when it was fitted.
     pub fit: Option<frame::Fit>,
-    /// Which detectors work, and why not.
-    pub outlooks: Vec<Outlook>,
 }
 
 /// Puts a log on the loop's clock.
@@ -106,7 +126,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     let plan = Plan::new(&scenario).map_err(|error| LogError::file(format!("with this log, {error}")))?;
     let source = source(log, setup.commands)?;
     let start = clock::start(times[0], log.origin, &scenario, &mut report);
-    let ticks = Ticks::new(times, scenario.loop_rate, &mut report)?;
+    let most = setup.most.map_or(MAX_ENTRIES, |most| most.min(MAX_ENTRIES));
+    let ticks = Ticks::new(times, scenario.loop_rate, most, &mut report)?;
     let ordered = ordered(log, &plan, &mut report)?;
     let commanded = |at: f64| commanded(source, &plan, &ordered, at, start);
     let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);
@@ -145,18 +166,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     if source == Commands::Log {
         order.tell([Happening::HeldCommand, Happening::GapInCommands], start, &mut report);
     }
-    let outlooks = outlook::outlooks(log, source);
     let recording = Recording { entries, truth: None };
-    Ok(Assembled {
-        plan,
-        recording,
-        report,
-        rate: setup.rate,
-        commands: source,
-        start: log.origin + start,
-        fit,
-        outlooks,
-    })
+    Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start: log.origin + start, fit })
 }
 
 /// Where the commands come from.
@@ -199,7 +210,7 @@ fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogE
         if let Some(allowed) = bend_refused(segment, *bend) {
             let what = format!("a commanded bend of {bend} rad: the model does not reach so far; is the unit right?");
             let allowed = allowed.words(Quantity::Angle, Units::Si);
-            return Err(LogError { place: Place::line(u64::from(*line)), what, allowed });
+            return Err(LogError { place: Place::line(u64::from(*line)), what, allowed, way: "".into() });
         }
     }
     Ok(Track { times: track.0.clone(), lines: track.1.clone(), values })

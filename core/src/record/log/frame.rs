@@ -73,8 +73,10 @@ impl Fit {
     /// In a sentence without full stop.
     #[must_use]
     pub fn told(&self) -> String {
-        let turn = |angles: [f64; 3]| angles.map(|angle| format!("{:.2}", angle.to_degrees())).join(", ");
-        let position = self.frame.position.map(|part| format!("{:.2}", part * 1e3)).join(", ");
+        // Zero has no sign in words.
+        let plain = |value: f64| format!("{value:.2}").replace("-0.00", "0.00");
+        let turn = |angles: [f64; 3]| angles.map(|angle| plain(angle.to_degrees())).join(", ");
+        let position = self.frame.position.map(|part| plain(part * 1e3)).join(", ");
         let mut text = format!(
             "fitted to {} readings until {:.3} s: at ({position}) mm, turned by ({})°",
             self.readings,
@@ -113,7 +115,7 @@ pub(super) fn placed(
         Setting::Given(frame) => Ok((moved(&log.readings, frame, &Mat3::identity()), None)),
         Setting::Fitted => {
             let commanded = commanded.ok_or_else(|| {
-                LogError::file("the frame cannot be fitted without commands: give them with --commands")
+                LogError::file("the frame cannot be fitted without commands").or(": give them with --commands")
             })?;
             let pairs = pairs(log, plan, commanded, start);
             let (fit, marker) = fit(&pairs, plan.segment().length, plan.scenario().detection.armed_from)?;

@@ -2,12 +2,13 @@
 
 use super::error::{LogError, quoted};
 use super::units::{Dimension, Unit};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use std::fmt;
 
 macro_rules! roles {
     ($($role:ident, $key:literal, $dimension:ident, [$($alias:literal),*], $sentence:literal;)*) => {
         /// What a column can be.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
         #[serde(rename_all = "snake_case")]
         pub enum Role { $(#[doc = $sentence] $role),* }
 
@@ -72,7 +73,7 @@ roles! {
 const LONG: usize = 5;
 
 /// How a column came to be what it is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
     /// Its name looks like it.
@@ -111,6 +112,16 @@ impl Column {
     #[must_use]
     pub fn unused(place: usize, header: &str) -> Self {
         Self { place, header: header.into(), role: None, unit: "", unit_given: false, origin: Origin::Guessed }
+    }
+
+    /// What it was taken for, in a few words; none for a column that is not used.
+    #[must_use]
+    pub fn told(&self) -> Option<String> {
+        let role = self.role?;
+        let unit = if self.unit_given || self.unit == "1" { "" } else { " (no unit given)" };
+        let (key, name) = (role.key(), format!("{} [{}]", role.key(), self.unit));
+        let said = self.header == name || self.header == key;
+        Some(if said { name } else { format!("{:?} as {name}{unit}", self.header) })
     }
 
     /// The unit of its numbers.
@@ -159,9 +170,20 @@ impl Mapping {
         Ok(Self { role, unit, column: column.into() })
     }
 
-    fn is_of(&self, place: usize, header: &str) -> bool {
+    /// Whether it means the column in a place (from 0) with this header.
+    #[must_use]
+    pub fn is_of(&self, place: usize, header: &str) -> bool {
         let number = self.column.strip_prefix('#').and_then(|number| number.parse::<usize>().ok());
         header == self.column || with_unit(header).0 == self.column || number == Some(place + 1)
+    }
+}
+
+impl fmt::Display for Mapping {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.unit {
+            Some(unit) => write!(f, "{} [{unit}]={}", self.role.key(), self.column),
+            None => write!(f, "{}={}", self.role.key(), self.column),
+        }
     }
 }
 
@@ -267,12 +289,12 @@ fn settle(columns: &mut [Column], line: u64) -> Result<(), LogError> {
             } else if let Some((place, header)) = &found {
                 let key = role.key();
                 let what = format!(
-                    "columns {} ({header}) and {} ({}) could both be {key}: say which with --map {key}=column",
+                    "columns {} ({header}) and {} ({}) could both be {key}",
                     place + 1,
                     column.place + 1,
                     column.header
                 );
-                return Err(LogError::line(line, what));
+                return Err(LogError::line(line, what).or(format!(": say which with --map {key}=column")));
             } else {
                 found = Some((column.place, column.header.clone()));
             }

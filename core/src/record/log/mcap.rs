@@ -14,11 +14,11 @@ use super::{Format, Log, Options, Progress};
 use crate::model::configuration::bend_from_theta_l;
 use container::{Fields, MAGIC, chunk, op, record};
 use message::{Content, Encoding, Kind, read};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// A topic of a file.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Topic {
     /// Its name.
     pub name: String,
@@ -185,6 +185,7 @@ impl McapReader {
             place: Place { line: Some(number), column: None, name: channel.topic.name.clone() },
             what: format!("the message {what}"),
             allowed: String::new(),
+            way: "".into(),
         };
         let (stamp, content) = read(kind, encoding, fields.0).map_err(refuse)?;
         let stamp = stamp.unwrap_or(logged.cast_signed());
@@ -261,10 +262,10 @@ impl McapReader {
             }
             if fitting.len() > 1 {
                 let names: Vec<&String> = fitting.iter().map(|id| &channels[id].topic.name).collect();
-                let what = format!("several topics could be {what}: choose one with --topic");
+                let what = format!("several topics could be {what}");
                 return Err(LogError {
                     allowed: listed(&|topic| names.contains(&&topic.name)),
-                    ..LogError::file(what)
+                    ..LogError::file(what).or(": choose one with --topic")
                 });
             }
             let Some(channel) = fitting.first().and_then(|id| channels.get(id)) else { continue };
@@ -310,7 +311,7 @@ impl McapReader {
 
 fn refuse_in(topic: &str, message: u64, what: String) -> LogError {
     let place = Place { line: Some(message), column: None, name: topic.into() };
-    LogError { place, what, allowed: String::new() }
+    LogError { place, what, allowed: String::new(), way: "".into() }
 }
 
 /// What a topic's messages held.

@@ -1,10 +1,10 @@
 //! What a log's reader did with what it found: counts, each with the first place where it happened.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Where something stands in a log.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Place {
     /// Line of a text file, or message of a binary one, from 1; none for the file as a whole.
     pub line: Option<u64>,
@@ -45,7 +45,7 @@ impl fmt::Display for Place {
 }
 
 /// What can happen to rows of a log on their way into a recording.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Happening {
     /// The file ends within a row.
@@ -145,7 +145,7 @@ impl Happening {
 }
 
 /// How often something happened, and where first.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Count {
     /// What happened.
     pub what: Happening,
@@ -170,7 +170,7 @@ impl fmt::Display for Count {
 }
 
 /// What was done with the rows of a log. Nothing is ever interpolated.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Report {
     /// Rows of a text file, or messages of a binary one, that were read.
     pub rows: u64,

@@ -5,6 +5,24 @@ use crate::scenario::keys::Value;
 use crate::scenario::text::number;
 
 impl Link {
+    /// The command that judges a log by the link's scenario: `log` is the file, `more` are flags behind the scenario.
+    #[must_use]
+    pub fn analyze(&self, log: &str, more: &[String]) -> String {
+        let mut words = vec!["analyze".to_owned(), log.into()];
+        words.extend(self.scenario_words());
+        words.extend_from_slice(more);
+        command_line(&words)
+    }
+
+    /// The flags that make the scenario.
+    fn scenario_words(&self) -> Vec<String> {
+        let mut words = vec!["--preset".to_owned(), self.preset.name.into()];
+        for (key, value) in &self.changes {
+            words.extend(["--set".into(), format!("{}={}", key.path, toml(value))]);
+        }
+        words
+    }
+
     /// The command that computes what the page shows: a run, or the figure, map, table or study on the stage. In the
     /// quotes of a shell where it needs them.
     #[must_use]
@@ -17,10 +35,7 @@ impl Link {
             (None, "tuning") => vec!["study".into()],
             _ => vec!["run".into()],
         };
-        words.extend(["--preset".into(), self.preset.name.into()]);
-        for (key, value) in &self.changes {
-            words.extend(["--set".into(), format!("{}={}", key.path, toml(value))]);
-        }
+        words.extend(self.scenario_words());
         if view == "tuning" {
             let page = &self.page;
             words.extend(["--repeats".into(), page.repeats.to_string()]);
@@ -30,9 +45,13 @@ impl Link {
         if figure.is_some() {
             words.extend(["--out".into(), format!("{view}.svg")]);
         }
-        let quoted = words.iter().map(|word| quoted(word));
-        std::iter::once("centrode".into()).chain(quoted).collect::<Vec<_>>().join(" ")
+        command_line(&words)
     }
+}
+
+fn command_line(words: &[String]) -> String {
+    let quoted = words.iter().map(|word| quoted(word));
+    std::iter::once("centrode".into()).chain(quoted).collect::<Vec<_>>().join(" ")
 }
 
 /// A value as `--set` takes it.
@@ -46,7 +65,7 @@ fn toml(value: &Value) -> String {
     }
 }
 
-/// A word that a shell takes as it stands, or in quotes. No word here holds a quote.
+/// A word that a shell takes as it stands, or in quotes.
 fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "-_.,=+/:".contains(c);
     if word.chars().all(plain) { word.into() } else { format!("'{}'", word.replace('\'', "'\\''")) }

@@ -135,6 +135,12 @@ fn number(value: &Value, set: impl FnOnce(f64)) {
 }
 
 impl Page {
+    /// A page with a view, one of [`VIEWS`], and else as by default.
+    #[must_use]
+    pub fn of(view: &'static str) -> Self {
+        Self { view, ..Self::default() }
+    }
+
     /// What differs from the default.
     pub(super) fn changes(&self) -> impl Iterator<Item = (&'static PageKey, Value)> {
         let default = Self::default();

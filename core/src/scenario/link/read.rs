@@ -165,7 +165,7 @@ impl Reader {
     fn take(&mut self, name: &str, text: &str, key: Option<&'static Key>) -> Result<(), Why> {
         match (name, key) {
             (_, Some(key)) => {
-                let value = key.read(&toml_of(key, text))?;
+                let value = read_text(key, text)?;
                 // A list of a wrong length is refused here.
                 key.set(&mut Scenario::default(), value.clone())?;
                 if let Some(other) =
@@ -186,13 +186,7 @@ impl Reader {
             ("v", _) if text.parse() == Ok(VERSION) => {}
             ("v", _) => return Err(Why::Newer),
             _ if PAGE_KEYS.iter().any(|key| key.name == name) => self.page.enter(name, text)?,
-            _ => match GROUPS.iter().find(|group| group.path == name) {
-                Some(group) => {
-                    let value = Value::Other(clipped(text));
-                    return Err(Refused::error(name, Quantity::Word, value, Allowed::Group(group.path)).into());
-                }
-                None => return Err(unknown_key(name).into()),
-            },
+            _ => return Err(no_key(name, text).into()),
         }
         Ok(())
     }
@@ -275,6 +269,23 @@ fn culprit(
         check(&without).err().is_none_or(|error| path(&error) != blamed)
     };
     itself.or_else(|| (0..given.len()).find(cured)).or_else(|| given.len().checked_sub(1))
+}
+
+/// Reads the value of a key as a link has it.
+///
+/// # Errors
+/// When the key cannot hold such a value.
+pub fn read_text(key: &'static Key, text: &str) -> Result<Value, ScenarioError> {
+    key.read(&toml_of(key, text))
+}
+
+/// The refusal of a name that is none of a link's keys, given with a value: a group of them, or unknown.
+#[must_use]
+pub fn no_key(name: &str, value: &str) -> ScenarioError {
+    match GROUPS.iter().find(|group| group.path == name) {
+        Some(group) => Refused::error(name, Quantity::Word, Value::Other(clipped(value)), Allowed::Group(group.path)),
+        None => unknown_key(name),
+    }
 }
 
 fn unknown_key(name: &str) -> ScenarioError {

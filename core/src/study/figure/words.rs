@@ -5,7 +5,7 @@ use crate::chart::ticks::Steps;
 use crate::model::Segment;
 use crate::model::configuration::theta_l_from_bend;
 use crate::scenario::text::number;
-use crate::scenario::{CellErrors, Place, Start};
+use crate::scenario::{CellErrors, Place, Start, Xi1Rule};
 use crate::scenario::{Plan, Scenario};
 
 /// Time.
@@ -101,6 +101,17 @@ pub fn detection(scenario: &Scenario) -> String {
     let detection = &scenario.detection;
     let threshold = detection.xi2.value().map_or_else(|| "off".into(), millimetres);
     format!("ξ2 = {threshold}, armed from {} s", plain(detection.armed_from))
+}
+
+/// Both thresholds and when they are looked at.
+pub fn thresholds(scenario: &Scenario) -> String {
+    let set = &scenario.detection;
+    let off = || "off".into();
+    let xi1 = match set.xi1_rule {
+        Xi1Rule::Bound => set.xi1.value().map(|_| format!("{}·ε_c(θ_L)", plain(set.xi1_factor))),
+        Xi1Rule::Constant => set.xi1.value().map(|xi1| format!("{} mN·m", plain(xi1 * MILLI))),
+    };
+    format!("ξ1 = {}, {}", xi1.unwrap_or_else(off), detection(scenario))
 }
 
 /// Seed and repeats.

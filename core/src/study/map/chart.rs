@@ -23,7 +23,7 @@ pub enum Kind {
 
 impl Kind {
     /// Both, in the order of their panels.
-    pub const ALL: [Self; 2] = [Self::Centrode, Self::Forces];
+    pub const ALL: &[Self] = &[Self::Centrode, Self::Forces];
 
     /// What its panel shows, in a line.
     #[must_use]
@@ -103,7 +103,7 @@ pub fn without_contact(map: &ContactMap, plan: &Plan) -> Chart {
                    ±ε_τ the cells share; beyond 50 % the colour stays.";
     Chart {
         title: "Which contacts are detectable".into(),
-        panels: Kind::ALL.map(|kind| panel(map, plan, kind)).into(),
+        panels: Kind::ALL.iter().map(|&kind| panel(map, plan, kind)).collect(),
         caption: format!("{made}\n{meaning}"),
     }
 }

@@ -3,6 +3,8 @@
 use super::{Disk, Outcome, Row, Table2, paper_rows};
 use crate::chart::{Axis, Chart, Intervals, Panel, Role, Series, Style};
 use crate::scenario::Scenario;
+use crate::scenario::link::Page;
+use crate::study::export::origin;
 use crate::study::figure::words::{self, MILLI};
 
 /// Where the paper's estimates and the simulated ones stand in a lane, and their means, from its middle and in its heights.
@@ -77,6 +79,18 @@ pub fn chart(table: &Table2, estimates: &[Estimate]) -> Chart {
 /// The same for a file, with what it was made with: `repeats` experiments of a scenario on each disk.
 #[must_use]
 pub fn with_words(table: &Table2, rows: &[Row], (scenario, repeats): (&Scenario, usize)) -> Chart {
+    let caption = format!("The paper's estimates are the rows of its Table II. {}", simulated(scenario, repeats));
+    Chart { caption, ..chart(table, &estimates(table, rows)) }
+}
+
+/// What made both tables, in lines, the last of which is the link.
+#[must_use]
+pub fn made(scenario: &Scenario, repeats: usize) -> String {
+    let link = origin(scenario, Page::of("table2"));
+    format!("Table II: the rows that the paper prints.\n{}\n{link}", simulated(scenario, repeats))
+}
+
+fn simulated(scenario: &Scenario, repeats: usize) -> String {
     let made = [
         words::robot(scenario),
         words::motion(scenario),
@@ -85,11 +99,7 @@ pub fn with_words(table: &Table2, rows: &[Row], (scenario, repeats): (&Scenario,
         words::seed(scenario, repeats),
     ];
     let made = made.join("; ");
-    let caption = format!(
-        "The paper's estimates are the rows of its Table II. Simulated by Centrode, with contact as in the presets disk-1, bench \
-         and disk-3: {made}."
-    );
-    Chart { caption, ..chart(table, &estimates(table, rows)) }
+    format!("Simulated by Centrode, with contact as in the presets disk-1, bench and disk-3: {made}.")
 }
 
 #[cfg(test)]

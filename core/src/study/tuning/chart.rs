@@ -190,7 +190,9 @@ fn late(study: &Study) -> f64 {
     study.spec().late.min(ends.fold(0.0, f64::max)).max(1e-9)
 }
 
-fn caption(study: &Study, wish: &Wish, advised: bool, partial: bool) -> String {
+/// What a study was made with and what its charts show, in words; `advised` says whether there is a threshold to take.
+#[must_use]
+pub fn caption(study: &Study, wish: &Wish, advised: bool, partial: bool) -> String {
     let spec = study.spec();
     let (tracker, cells) = (&spec.scenario.tracker, &spec.scenario.load_cells);
     let progress = study.progress();

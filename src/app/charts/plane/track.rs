@@ -56,7 +56,7 @@ impl<'a> Track<'a> {
     /// The track of a run with its loci.
     #[must_use]
     pub fn new(run: &'a Run, trace: &'a Trace) -> Self {
-        let projection = Projection::of(run.recording.entries[0].configuration);
+        let projection = Projection::of(run.commanded(0));
         Self { run, trace, sizes: Proportions::of(run), projection }
     }
 

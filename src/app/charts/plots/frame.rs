@@ -34,6 +34,8 @@ pub struct Frame {
     pub values: Axis,
     /// The colours.
     pub theme: Theme,
+    /// Room that a button takes at the right of the title, points.
+    pub tool: f32,
 }
 
 /// A value at the playback position, and the line it belongs to.
@@ -60,7 +62,7 @@ impl Frame {
         let [time, values] = place.ranges();
         let time = Axis::new(time, [data.left(), data.right()]);
         let values = Axis::new(values.map(|end| end * scale), [data.bottom(), data.top()]);
-        Self { outer, data, time, values, theme }
+        Self { outer, data, time, values, theme, tool: 0.0 }
     }
 
     /// Title on the left, read-outs on the right; what does not fit gives way, least important first.
@@ -77,7 +79,7 @@ impl Frame {
                 (readout, swatch + name.size().x + 5.0 + width, name, value)
             })
             .collect();
-        let room = self.outer.width() - 4.0;
+        let room = self.outer.width() - 4.0 - self.tool;
         let gap = 14.0;
         let needed = |count: usize| parts.iter().take(count).map(|part| part.1 + gap).sum::<f32>();
         let long = galley(long, self.theme.ink);
@@ -91,7 +93,7 @@ impl Frame {
         };
         let top = self.outer.top();
         painter.galley(pos2(self.outer.left() + 2.0, top + 1.0), title, self.theme.ink);
-        let mut right = self.outer.right() - RIGHT;
+        let mut right = self.outer.right() - RIGHT - self.tool;
         for (readout, width, name, value) in parts.into_iter().take(count).rev() {
             let left = right - width;
             painter.galley(pos2(right - value.size().x, top + 1.0), value, self.theme.ink);
@@ -125,6 +127,9 @@ impl View<'_> {
         let sense = Sense::CLICK | Sense::DRAG;
         let response = ui.interact(self.frame.data, ui.scope_id().with(("plot", self.which)), sense);
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Figure, ui.is_enabled(), label));
+        if self.measure(ui, &response) {
+            return;
+        }
         let time = |pos: Pos2| self.frame.time.value(pos.x);
         if let Some(pos) = response.hover_pos().filter(|_| !response.dragged()) {
             self.state.hover = Some(time(pos));

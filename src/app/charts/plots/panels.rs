@@ -65,9 +65,10 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     view.scrub(ui, &format!("Plot of the {} over time", name.to_lowercase()));
     view.frame.title(&painter, &format!("{name} {symbol} ({unit})"), &format!("{symbol} ({unit})"), &readouts);
     if !view.has_values() {
-        empty(&painter, &view.frame, "not defined anywhere in this run");
+        empty(&painter, &view.frame, "no values in this run");
     }
     let dots: Vec<_> = curves.iter().rev().map(|curve| (value(curve, &now), ink(curve))).collect();
+    view.between(&painter);
     view.cursor(&painter, &dots);
 
     view.arming(ui, &painter);
@@ -81,6 +82,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     view.hold(method, outcome.moving);
     view.out.extend(outcome.changed.map(|to| change(method, to)));
     view.over(&painter, &events(run, method));
+    view.change(&painter);
     if !view.event(ui, &painter, method) {
         view.hover(&painter, |sample| {
             let line = |curve: &Curve| {
@@ -101,6 +103,8 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     let readout = ReadOut { name: "", value: number(value(&now), 1), color: theme.robot, style: Style::Line };
     view.scrub(ui, "Plot of the tangent angle over time");
     view.frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
+    view.between(&painter);
     view.cursor(&painter, &[(value(&now), theme.robot)]);
+    view.change(&painter);
     view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
 }

@@ -16,7 +16,7 @@ use centrode_core::study::tuning::watch::Rule;
 use egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo};
 
 /// Where a threshold lies; none where its values are not defined.
-type At = fn(&Point) -> Option<[f64; 2]>;
+pub type At = fn(&Point) -> Option<[f64; 2]>;
 /// What a picture is made of: the study's version, and what is looked at in it.
 pub type Key = (u64, Tuning);
 

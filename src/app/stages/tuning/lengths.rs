@@ -3,11 +3,12 @@
 use crate::app::charts::notation::{self, job};
 use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::command::Command;
-use crate::app::stages::tuner::LATE;
+use crate::app::stages::tuner::{Cells, LATE};
 use crate::app::stages::tuning::{Named, REACH, TEXT, View, curves, taken, words};
 use crate::app::state::Tuning;
 use centrode_core::chart::ticks::Tick;
 use centrode_core::chart::{Axis, Chart, Map, Panel, Role, Series, Style};
+use centrode_core::study::tuning::Study;
 use centrode_core::study::tuning::chart::mark;
 use centrode_core::study::tuning::recommend::Verdict;
 use egui::{CursorIcon, Pos2, Rect, Sense, Ui, WidgetInfo};
@@ -32,10 +33,7 @@ pub fn map(
     // Rows up to the threshold that is set, and some more: its dot moves over a map that stays.
     let own = view.setting().map_or(0, |threshold| (threshold / step).ceil() as usize);
     let least = (own + own / 8).next_multiple_of(ROWS[0]).clamp(ROWS[0], ROWS[1]);
-    let at = |length: u64, threshold: f64| {
-        let column = view.cells.lengths.iter().position(|(other, _)| *other == length)?;
-        Some([column as f64, threshold])
-    };
+    let at = |length: u64, threshold: f64| place(view.cells, length, threshold);
     let make = || {
         let mut panel = Panel { title: heading.into(), ..panel(view, delays(view, step, least)) };
         if let Verdict::Take { cell, point, .. } = &view.derived.verdict {
@@ -48,10 +46,21 @@ pub fn map(
     let places = picture.show(ui.painter(), &view.theme, rect, paint::page(TEXT));
     let map = picture.chart().panels.first().and_then(|panel| panel.map.as_ref());
     let (Some(place), Some(map)) = (places.first(), map) else { return };
-    let own = view.setting().and_then(|threshold| at(view.study.cells()[0].scenario.filter.length, threshold));
+    let own = view.setting().and_then(|threshold| set(view.study, view.cells, threshold));
     let dot = own.map(|own| Series::new("", Role::Detection, Style::Dots, vec![own]));
     picture.over(ui.painter(), &view.theme, (0, place), dot.as_slice());
     touch(ui, place, heading, view, (map.rows(), step), own, out);
+}
+
+/// Where a filter length and a threshold lie.
+fn place(cells: &Cells, length: u64, threshold: f64) -> Option<[f64; 2]> {
+    let column = cells.lengths.iter().position(|(other, _)| *other == length)?;
+    Some([column as f64, threshold])
+}
+
+/// Where the filter length of a study's scenario lies with the threshold that is set.
+pub fn set(study: &Study, cells: &Cells, threshold: f64) -> Option<[f64; 2]> {
+    place(cells, study.cells().first()?.scenario.filter.length, threshold)
 }
 
 /// The axes of the map: a column for each filter length, a row for each threshold.

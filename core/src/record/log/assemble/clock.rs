@@ -1,6 +1,6 @@
 //! The loop's clock: how fast it ran, and when each instant was.
 
-use super::{Log, LogError, MAX_ENTRIES, Report};
+use super::{Log, LogError, Report};
 use crate::scenario::Scenario;
 use crate::scenario::text::number;
 use libm::{floor, rint};
@@ -61,13 +61,13 @@ pub struct Ticks<'a> {
 const NEAR: f64 = 0.25;
 
 impl<'a> Ticks<'a> {
-    /// From the first row to the last, at `rate` (Hz).
-    pub fn new(times: &'a [f64], rate: f64, report: &mut Report) -> Result<Self, LogError> {
+    /// From the first row to the last, at `rate` (Hz), at most so many.
+    pub fn new(times: &'a [f64], rate: f64, most: usize, report: &mut Report) -> Result<Self, LogError> {
         let (first, last) = (times[0], times[times.len() - 1]);
         let steps = floor((last - first) * rate + 0.5);
-        if steps >= MAX_ENTRIES as f64 {
+        if steps >= most as f64 {
             let what = format!(
-                "{} s at {} Hz are {} instants of the loop, and at most {MAX_ENTRIES} can be kept: cut the log, or set loop_rate lower",
+                "{} s at {} Hz are {} instants of the loop, and at most {most} can be kept: cut the log, or set loop_rate lower",
                 number(last - first),
                 number(rate),
                 number(steps + 1.0)

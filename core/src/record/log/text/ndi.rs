@@ -136,10 +136,8 @@ impl Groups {
             None if names.len() == 1 => return Ok(0),
             None if names.is_empty() => return Err(LogError::line(line, "holds no tool")),
             None => {
-                return Err(LogError::line(
-                    line,
-                    format!("holds {} tools: {}: choose one with --tool", names.len(), listed()),
-                ));
+                let what = format!("holds {} tools: {}", names.len(), listed());
+                return Err(LogError::line(line, what).or(": choose one with --tool"));
             }
             Some(wanted) => {
                 let numbered = wanted

@@ -106,13 +106,13 @@ impl Row {
             let headers = columns.iter().take(12).map(|column| column.header.as_str()).collect::<Vec<_>>().join(", ");
             let what = format!(
                 "neither a position (x, y, z) nor a command (theta_l, bend, or q1, q2, q3) nor load cells (tau_1, tau_2, \
-                 tau_3) among the columns {}: say what they are with --map name=column",
+                 tau_3) among the columns {}",
                 quoted(headers.as_bytes())
             );
-            return Err(LogError::line(line, what));
+            return Err(LogError::line(line, what).or(": say what they are with --map name=column"));
         }
         let time = slot(columns, Role::Time).ok_or_else(|| {
-            LogError::line(line, "no column is the time: name it \"time [s]\", or use --map time=column")
+            LogError::line(line, "no column is the time: name it \"time [s]\"").or(", or use --map time=column")
         })?;
         Ok(Self { time, nanoseconds: None, position, turn, ordered, forces, quality: slot(columns, Role::Quality) })
     }

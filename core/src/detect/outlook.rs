@@ -1,7 +1,7 @@
 //! Which detectors a log lets work.
 
-use super::{Commands, Log};
-use crate::detect::Method;
+use super::Method;
+use crate::record::log::{Commands, Log};
 use serde::Serialize;
 
 /// Whether a detector works on a log.
@@ -15,7 +15,8 @@ pub struct Outlook {
     pub why: String,
 }
 
-/// Of every detector.
+/// Of every detector, on a log whose commands come from `source`.
+#[must_use]
 pub fn outlooks(log: &Log, source: Commands) -> Vec<Outlook> {
     let estimated = source == Commands::Estimated;
     let of = |detector| {

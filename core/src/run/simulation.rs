@@ -1,0 +1,88 @@
+//! A simulated experiment sample by sample.
+
+use super::Sample;
+use crate::detect::alarm::Alarms;
+use crate::detect::evidence::Observer;
+use crate::detect::{Crossing, Detection, Event, Settings};
+use crate::record::{Entry, Recorder};
+use crate::scenario::Plan;
+
+/// The experiment as a stream: what it keeps is one filter length of readings, the events, and the crossings unless they are taken.
+#[derive(Debug, Clone)]
+pub struct Simulation<'a> {
+    recorder: Recorder<'a>,
+    observer: Observer,
+    alarms: Alarms,
+    contact_time: Option<f64>,
+    /// What was stored last.
+    entry: Option<Entry>,
+}
+
+impl<'a> Simulation<'a> {
+    /// At rest before the first sample.
+    #[must_use]
+    pub fn new(plan: &'a Plan) -> Self {
+        let settings = Settings::of(plan);
+        Self {
+            recorder: Recorder::new(plan),
+            observer: Observer::new(&settings),
+            alarms: Alarms::new(&settings),
+            contact_time: None,
+            entry: None,
+        }
+    }
+
+    /// What the loop stored at the last sample; none before the first.
+    #[must_use]
+    pub fn entry(&self) -> Option<&Entry> {
+        self.entry.as_ref()
+    }
+
+    /// Threshold crossings so far, in order.
+    #[must_use]
+    pub fn crossings(&self) -> &[Crossing] {
+        self.alarms.crossings()
+    }
+
+    /// Takes the crossings so far out, so that a long run does not gather them.
+    pub fn take_crossings(&mut self) -> Vec<Crossing> {
+        self.alarms.take_crossings()
+    }
+
+    /// Events so far, in the order in which they were raised.
+    #[must_use]
+    pub fn events(&self) -> &[Event] {
+        self.alarms.events()
+    }
+
+    /// The first detection so far.
+    #[must_use]
+    pub fn detection(&self) -> Option<Detection> {
+        Detection::first(self.events())
+    }
+
+    /// Truth: time of the first sample in contact so far, s.
+    #[must_use]
+    pub fn contact_time(&self) -> Option<f64> {
+        self.contact_time
+    }
+}
+
+impl Iterator for Simulation<'_> {
+    type Item = Sample;
+
+    fn next(&mut self) -> Option<Sample> {
+        let (entry, truth) = self.recorder.next()?;
+        let evidence = self.observer.observe(&entry);
+        self.alarms.look(entry.time, &entry.configuration, &evidence.judgement);
+        if truth.held.is_some() && self.contact_time.is_none() {
+            self.contact_time = Some(entry.time);
+        }
+        self.entry = Some(entry);
+        Some(Sample::new(&entry, Some(&truth), &evidence))
+    }
+
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        self.recorder.size_hint()
+    }
+}

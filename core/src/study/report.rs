@@ -1,0 +1,217 @@
+//! What a run or a log comes to: crossings, events, the detection, and the largest values judged.
+
+use crate::detect::{Crossing, Detection, Event, Method};
+use crate::run::{Run, Sample};
+use crate::scenario::{Plan, Scenario, Thresholds};
+use serde::Serialize;
+use thiserror::Error;
+
+/// A run with more crossings than this has no list of them: 40 MB as JSON.
+pub const MAX_CROSSINGS: usize = 1_000_000;
+
+/// A run crosses thresholds too often for a list.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+#[error(
+    "at most {MAX_CROSSINGS} threshold crossings are listed, and at {time} s there are more: raise detection.xi2 or detection.xi1"
+)]
+pub struct TooMany {
+    /// When the first one too many happens, s.
+    pub time: f64,
+}
+
+/// What a run or a log comes to. SI units; `L` is how a log was read.
+#[derive(Debug, Serialize)]
+pub struct Report<L = ()> {
+    /// What was run.
+    pub scenario: Scenario,
+    /// Instants judged.
+    pub samples: usize,
+    /// Truth; null when the beam never holds, and for a log, which does not know it.
+    pub contact: Option<Contact>,
+    /// Every time a threshold was passed upward, as far as they are listed.
+    pub crossings: Vec<Crossing>,
+    /// What each detector makes of its crossings.
+    pub events: Vec<Event>,
+    /// Crossings that are not listed.
+    #[serde(skip)]
+    pub more: u64,
+    /// The first crossing of ξ2; null when there is none.
+    pub detection: Option<Found>,
+    /// Largest values judged: after arming, and for the centrode while the end disk turns.
+    pub peak: Peaks,
+    /// How the log was read; left out for a simulation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub log: Option<L>,
+}
+
+impl<L> Report<L> {
+    /// Of what was simulated, or of a log.
+    #[must_use]
+    pub fn new(scenario: Scenario, tally: Tally, events: &[Event], contact: Option<Contact>, log: Option<L>) -> Self {
+        let detection = Detection::first(events);
+        let delay = |detection: &Detection| contact.as_ref().map(|contact| detection.time - contact.time);
+        let detection = detection.map(|detection| Found { delay: delay(&detection), detection });
+        let Tally { samples, crossings: Crossings { listed, more, .. }, peak, .. } = tally;
+        Self { scenario, samples, contact, crossings: listed, events: events.to_vec(), more, detection, peak, log }
+    }
+}
+
+impl Report {
+    /// Of a run, with every crossing.
+    ///
+    /// # Errors
+    /// When there are too many.
+    pub fn of(run: &Run) -> Result<Self, TooMany> {
+        let scenario = run.plan.scenario();
+        let mut tally = Tally::new(true);
+        let mut crossings = run.crossings();
+        for sample in run.samples() {
+            let (now, later) = crossings.split_at(crossings.partition_point(|crossing| crossing.time <= sample.time));
+            tally.add(&sample, now, &scenario.detection)?;
+            crossings = later;
+        }
+        Ok(Self::new(scenario.clone(), tally, run.events(), Contact::of(&run.plan, run.contact_time()), None))
+    }
+}
+
+/// What is gathered sample by sample.
+#[derive(Debug)]
+pub struct Tally {
+    samples: usize,
+    /// Whether every crossing is listed.
+    lists: bool,
+    crossings: Crossings,
+    peak: Peaks,
+}
+
+impl Tally {
+    /// Before the first sample; `lists` where every crossing is to be listed, else they are counted.
+    #[must_use]
+    pub fn new(lists: bool) -> Self {
+        let crossings = Crossings::new(if lists { MAX_CROSSINGS } else { 0 });
+        Self { samples: 0, lists, crossings, peak: Peaks::default() }
+    }
+
+    /// Takes a sample, and the crossings at it.
+    ///
+    /// # Errors
+    /// When there are too many to list.
+    pub fn add(&mut self, sample: &Sample, crossings: &[Crossing], thresholds: &Thresholds) -> Result<(), TooMany> {
+        let Self { samples, lists, crossings: listed, peak } = self;
+        *samples += 1;
+        listed.add(crossings);
+        if *lists && listed.more > 0 {
+            return Err(TooMany { time: sample.time });
+        }
+        let Sample { time, judgement, .. } = sample;
+        for (method, peak) in [(Method::Fcd, &mut peak.deviation), (Method::Jfd, &mut peak.residual)] {
+            if let Some(value) = method.statistic(judgement, *time, thresholds).counted() {
+                raise(peak, *time, value);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A contact as the simulation knows it.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Contact {
+    /// When it began, s.
+    pub time: f64,
+    /// Where, m.
+    pub arc_length: f64,
+    /// Bend of the segment then, rad.
+    pub bend: f64,
+}
+
+impl Contact {
+    /// The contact of a plan that began at a time (s), if both are there.
+    #[must_use]
+    pub fn of(plan: &Plan, time: Option<f64>) -> Option<Self> {
+        let (contact, time) = plan.contact().zip(time)?;
+        Some(Self { time, arc_length: contact.arc_length, bend: contact.bend })
+    }
+}
+
+/// A detection, and how late it is.
+#[derive(Debug, Serialize)]
+pub struct Found {
+    /// The detection.
+    #[serde(flatten)]
+    pub detection: Detection,
+    /// Time since the contact began, s; null without contact.
+    pub delay: Option<f64>,
+}
+
+/// Largest values judged; null where nothing was.
+#[derive(Debug, Default, Serialize)]
+pub struct Peaks {
+    /// Of the centrode, m.
+    pub deviation: Option<Peak>,
+    /// Of joint forces, N·m.
+    pub residual: Option<Peak>,
+}
+
+/// A largest value.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct Peak {
+    /// When, s.
+    pub time: f64,
+    /// The value, SI.
+    pub value: f64,
+}
+
+fn raise(peak: &mut Option<Peak>, time: f64, value: f64) {
+    if !value.is_nan() && peak.is_none_or(|peak| value > peak.value) {
+        *peak = Some(Peak { time, value });
+    }
+}
+
+/// The first crossings, and how many more there are.
+#[derive(Debug)]
+struct Crossings {
+    most: usize,
+    listed: Vec<Crossing>,
+    more: u64,
+}
+
+impl Crossings {
+    fn new(most: usize) -> Self {
+        Self { most, listed: Vec::new(), more: 0 }
+    }
+
+    fn add(&mut self, crossings: &[Crossing]) {
+        let (listed, more) = crossings.split_at(crossings.len().min(self.most - self.listed.len()));
+        self.listed.extend_from_slice(listed);
+        self.more += more.len() as u64;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::run::simulate;
+    use crate::scenario::preset::find;
+
+    #[test]
+    fn the_first_crossings_are_listed_and_the_others_counted() {
+        let at = |time| Crossing { method: Method::Fcd, time, theta_l: 0.0, value: 2.0, threshold: 1.0 };
+        let mut crossings = Crossings::new(3);
+        for some in [&[][..], &[at(1.0), at(2.0)], &[at(3.0), at(4.0)], &[at(5.0)]] {
+            crossings.add(some);
+        }
+        assert_eq!((crossings.listed, crossings.more), (vec![at(1.0), at(2.0), at(3.0)], 2));
+    }
+
+    #[test]
+    fn a_report_of_a_run_holds_what_the_run_found() {
+        let run = simulate(&find("bench").and_then(|preset| preset.scenario()).expect("a preset")).expect("a run");
+        let report = Report::of(&run).expect("few crossings");
+        assert_eq!((report.samples, &*report.crossings, &*report.events), (run.len(), run.crossings(), run.events()));
+        assert_eq!(report.detection.map(|found| found.detection), run.detection());
+        assert_eq!(report.contact.map(|contact| contact.time), run.contact_time());
+        let peak = report.peak.deviation.expect("a peak");
+        let alarms = run.events().iter().filter(|event| event.detector == Method::Fcd);
+        assert!(alarms.map(|event| event.value).fold(0.0, f64::max) <= peak.value);
+    }
+}

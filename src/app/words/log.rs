@@ -1,0 +1,169 @@
+//! What the page says of a log.
+
+use crate::app::charts::notation::number;
+use crate::app::memo::recorded::Recorded;
+use crate::app::panels::notice::{Notice, Row};
+use crate::app::words::story::Figure;
+use centrode_core::detect::Method;
+use centrode_core::detect::outlook::Outlook;
+use centrode_core::record::log::{Column, Commands};
+use centrode_core::run::Run;
+use centrode_core::scenario::text;
+use centrode_core::study::course::measure;
+
+/// What only a simulation knows.
+const NO_TRUTH: &str = "A log does not say when contact began, where it was, or which shape the robot truly had. Delays, errors of \
+    the estimate and shaded contact are therefore missing, and the robot is drawn as commanded, as if nothing touched it.";
+
+/// Whether a detector can judge a log, and what it lacks.
+fn outlook(recorded: &Recorded, method: Method) -> Option<&Outlook> {
+    recorded.outlooks.iter().find(|outlook| outlook.detector == method)
+}
+
+/// What a detector made of a log.
+fn detector(run: &Run, recorded: &Recorded, method: Method) -> String {
+    let (name, key) = match method {
+        Method::Fcd => ("The centrode", "ξ2"),
+        Method::Jfd => ("Joint forces", "ξ1"),
+    };
+    if let Some(outlook) = outlook(recorded, method).filter(|outlook| !outlook.works) {
+        return format!("{name} raised no alarm: {}.", outlook.why);
+    }
+    let thresholds = &run.plan.scenario().detection;
+    let off = match method {
+        Method::Fcd => thresholds.xi2.value().is_none(),
+        Method::Jfd => thresholds.xi1.value().is_none(),
+    };
+    let events = || run.events().iter().filter(|event| event.detector == method);
+    match (off, events().next()) {
+        (true, _) => format!("{key} is off, so {} raised no alarm.", name.to_lowercase()),
+        (false, None) => {
+            format!("{name} raised no alarm from {} s on.", number(thresholds.armed_from, 2))
+        }
+        (false, Some(first)) => {
+            let place = match &first.detection {
+                Some(found) if found.location.is_finite() => {
+                    format!("; the estimated place of contact is {} mm", number(found.location * 1e3, 1))
+                }
+                _ => String::new(),
+            };
+            let more = match events().count() {
+                1 => String::new(),
+                count => format!(", the first of {count}"),
+            };
+            format!("{name} raised an alarm at {} s{more}{place}.", number(first.raised, 3))
+        }
+    }
+}
+
+/// A log in a sentence: what the centrode made of it, or where it cannot judge, the joint forces.
+#[must_use]
+pub fn sentence(run: &Run, recorded: &Recorded) -> String {
+    let works = outlook(recorded, Method::Fcd).is_none_or(|outlook| outlook.works);
+    detector(run, recorded, if works { Method::Fcd } else { Method::Jfd })
+}
+
+/// A log in words: both methods, and what is not known.
+#[must_use]
+pub fn words(run: &Run, recorded: &Recorded) -> String {
+    let all: Vec<String> = Method::ALL.iter().map(|method| detector(run, recorded, *method)).collect();
+    format!("{} A log does not say whether anything touched the robot.", all.join(" "))
+}
+
+/// A log in figures.
+#[must_use]
+pub fn figures(run: &Run) -> Vec<Figure> {
+    let figure = |name, value: f64, decimals, unit| Figure { name, value: number(value, decimals), unit };
+    let found = run.detection();
+    let known = |value: Option<f64>| value.unwrap_or(f64::NAN);
+    let count = |method| run.events().iter().filter(|event| event.detector == method).count() as f64;
+    vec![
+        figure("Detected", known(found.map(|found| found.time)), 3, "s"),
+        figure("θL at detection", known(found.map(|found| found.theta_l.to_degrees())), 1, "°"),
+        figure("Estimate", known(found.map(|found| found.location * 1e3)), 1, "mm"),
+        figure("Centrode alarms", count(Method::Fcd), 0, ""),
+        figure("Joint force alarm", known(run.judged.first(Method::Jfd).map(|event| event.raised)), 3, "s"),
+        figure("Joint force alarms", count(Method::Jfd), 0, ""),
+        figure("Log ends", run.sample(run.len() - 1).time, 3, "s"),
+    ]
+}
+
+/// A log in a line: how it is written, how long it is, how fast the loop ran.
+#[must_use]
+pub fn facts(recorded: &Recorded) -> String {
+    format!(
+        "{} · {} rows · loop at {} Hz",
+        recorded.log.format.name(),
+        recorded.report.rows,
+        text::number(recorded.loop_rate)
+    )
+}
+
+/// What a log lacks; empty for nothing.
+#[must_use]
+pub fn missing(recorded: &Recorded) -> String {
+    let whys: Vec<&str> =
+        recorded.outlooks.iter().map(|outlook| outlook.why.as_str()).filter(|why| !why.is_empty()).collect();
+    whys.join(" · ")
+}
+
+/// How a log was read, with everything that was dropped, held or left undefined.
+#[must_use]
+pub fn report(name: &str, recorded: &Recorded) -> Notice {
+    let row = |written: &str, why: String| Row { written: written.into(), why, used: String::new() };
+    let columns = &recorded.log.columns;
+    let used: Vec<String> = columns.iter().filter_map(Column::told).collect();
+    let unused: Vec<&str> =
+        columns.iter().filter(|column| column.role.is_none()).map(|column| column.header.as_str()).collect();
+    let mut rows = vec![row("Columns", used.join(", "))];
+    if !unused.is_empty() {
+        rows.push(row("Not used", unused.join(", ")));
+    }
+    let rate = format!("{} Hz: {}", text::number(recorded.loop_rate), recorded.rate.told());
+    rows.extend([row("Loop", rate), row("Commands", recorded.commands.told().into())]);
+    for Outlook { detector, works, why } in &recorded.outlooks {
+        let how = if *works { "works" } else { "cannot work" };
+        let why = if why.is_empty() { format!("It {how}.") } else { format!("It {how}: {why}.") };
+        rows.push(row(measure(*detector).detector, why));
+    }
+    let sentences: Vec<String> = recorded.report.sentences().collect();
+    let done =
+        if sentences.is_empty() { "Nothing was dropped, held or left undefined.".into() } else { sentences.join("\n") };
+    rows.push(row("What was done with the rows", done));
+    rows.push(row("Not known", NO_TRUTH.into()));
+    let title = format!("How {name} was read");
+    let text = format!("{}. Nothing was interpolated.", facts(recorded));
+    let listed: String = rows.iter().map(|Row { written, why, .. }| format!("{written}: {why}\n")).collect();
+    Notice { details: format!("{title}\n{text}\n{listed}"), title, text, rows }
+}
+
+/// What is said of a log that was not read.
+#[must_use]
+pub fn not_read(name: &str, why: &str) -> Notice {
+    let title = format!("{name} was not read");
+    let text = format!("{why}.");
+    Notice { details: format!("{title}\n{text}"), title, text, rows: Vec::new() }
+}
+
+/// What is said of a log that is larger than the page takes.
+#[must_use]
+pub fn too_large(size: u64, most: u64) -> String {
+    format!(
+        "It has {} MiB, and the page reads logs of at most {} MiB: cut it into parts, or use `centrode analyze`, which reads up to 1 GiB",
+        size.div_ceil(1 << 20),
+        most >> 20
+    )
+}
+
+/// Whether a control, by its key, makes simulations alone and does nothing to the log that is shown.
+#[must_use]
+pub fn idle(key: &str, recorded: &Recorded) -> bool {
+    let motion = recorded.commands == Commands::Motion;
+    match key {
+        "motion.delta" => false,
+        _ if key.starts_with("motion.") => !motion,
+        "load_cells.epsilon_tau" | "tracker.mounting" => false,
+        "seed" => true,
+        _ => ["contact.", "load.", "load_cells.", "tracker."].iter().any(|group| key.starts_with(group)),
+    }
+}
