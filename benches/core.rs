@@ -1,6 +1,6 @@
 //! How long the core takes: `cargo bench`. Compare ratios within one run; absolute times differ between machines.
 
-use centrode_core::model::{Configuration, Constrained, Rate, locate};
+use centrode_core::model::{Assumption, Configuration, Constrained, Rate, locate};
 use centrode_core::run::{Simulation, simulate};
 use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{Plan, Scenario};
@@ -29,7 +29,9 @@ fn model(c: &mut Criterion) {
     c.bench_function("model/energy gradient", |b| b.iter(|| segment.energy_gradient(black_box(&configuration))));
     let held = Constrained::new(0.03, 0.015, 0.9, configuration);
     let centrode = held.centrode(rate).expect("it moves");
-    c.bench_function("model/locate", |b| b.iter(|| locate(0.03, configuration, rate, black_box(&centrode))));
+    c.bench_function("model/locate", |b| {
+        b.iter(|| locate(Assumption::default(), 0.03, configuration, rate, black_box(&centrode)))
+    });
 }
 
 fn experiment(c: &mut Criterion) {

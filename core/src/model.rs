@@ -27,7 +27,7 @@ pub use arc::{Arc, Jacobian, Pose};
 pub use configuration::{Configuration, Rate};
 pub use constrained::Constrained;
 pub use contact::touched::Touched;
-pub use location::{Location, locate};
+pub use location::{Assumed, Assumption, Location, locate};
 pub use statics::{Covector, Segment};
 pub use twist::{Twist, Wrench};
 

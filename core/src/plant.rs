@@ -1,5 +1,9 @@
 //! What the robot truly does: free, or held by the beam.
 
+pub mod event;
+
+pub use event::{Happening, PlantEvent};
+
 use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Arc, Configuration, Constrained, Jacobian, Pose, Segment, Touched, Vec3, Wrench};
 use crate::scenario::Plan;

@@ -7,7 +7,8 @@ pub mod log;
 pub mod script;
 
 use crate::model::{Configuration, Vec3, Wrench};
-use crate::plant::{Plant, Shape};
+use crate::plant::event::Watch;
+use crate::plant::{Plant, PlantEvent, Shape};
 use crate::scenario::Plan;
 use crate::sensors::cells::SimulatedCells;
 use crate::sensors::tracker::{Reading, SimulatedTracker};
@@ -103,6 +104,16 @@ impl Recording {
         let first = truth.iter().position(|truth| truth.held.is_some())?;
         Some(self.entries[first].time)
     }
+
+    /// Truth: what becomes of the contacts of the recording's plan, in order; nothing where the truth is not known.
+    #[must_use]
+    pub fn plant_events(&self, plan: &Plan) -> Vec<PlantEvent> {
+        let mut watch = Watch::default();
+        for (entry, truth) in self.entries.iter().zip(self.truth.iter().flatten()) {
+            watch.look(plan, entry.time, &entry.configuration, truth.held);
+        }
+        watch.events().to_vec()
+    }
 }
 
 /// A simulated experiment as a stream of what is stored, beside the truth: it keeps nothing.
@@ -126,6 +137,12 @@ impl<'a> Recorder<'a> {
             cells: SimulatedCells::new(plan),
             next: 0,
         }
+    }
+
+    /// The plan that is simulated.
+    #[must_use]
+    pub fn plan(&self) -> &'a Plan {
+        self.plan
     }
 }
 

@@ -9,7 +9,7 @@ pub use simulation::Simulation;
 use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
 use crate::model::Vec3;
-use crate::plant::Shape;
+use crate::plant::{Happening, PlantEvent, Shape};
 use crate::record::{Entry, Recording, Truth};
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
@@ -134,7 +134,7 @@ pub struct Run {
     pub recording: Recording,
     /// What is concluded.
     pub judged: Judged,
-    contact_time: Option<f64>,
+    plant_events: Vec<PlantEvent>,
 }
 
 impl Run {
@@ -143,7 +143,7 @@ impl Run {
     pub fn new(plan: Plan) -> Self {
         let recording = Recording::simulated(&plan);
         let judged = judge(&recording, &Settings::of(&plan));
-        Self { contact_time: recording.contact_time(), recording, judged, plan }
+        Self { plant_events: recording.plant_events(&plan), recording, judged, plan }
     }
 
     /// Brings the run up to date with a plan, and makes anew no more than that asks for: a threshold neither filters nor records
@@ -186,8 +186,8 @@ impl Run {
     /// Holds the evidence against other thresholds.
     fn alarm_again(&mut self, settings: Settings) {
         let empty = Judged { settings, evidence: Vec::new(), crossings: Vec::new(), events: Vec::new() };
-        let thresholds = empty.settings.thresholds.clone();
-        self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds);
+        let (thresholds, assumption) = (empty.settings.thresholds.clone(), empty.settings.assumption);
+        self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds, assumption);
     }
 
     /// Samples of the run, at least 1.
@@ -273,7 +273,13 @@ impl Run {
     /// Truth: time of the first sample in contact, s.
     #[must_use]
     pub fn contact_time(&self) -> Option<f64> {
-        self.contact_time
+        self.plant_events.iter().find(|event| event.what == Happening::Met).map(|event| event.time)
+    }
+
+    /// Truth: what becomes of contacts, in order; empty where it is not known.
+    #[must_use]
+    pub fn plant_events(&self) -> &[PlantEvent] {
+        &self.plant_events
     }
 
     /// A hash of every channel of every sample: equal bits give equal fingerprints, on every machine.
@@ -288,7 +294,19 @@ impl Run {
 /// Whether two scenarios differ at most in how a recording of them is judged.
 fn same_recording(one: &Scenario, other: &Scenario) -> bool {
     // Every field by name, so that one to come is thought of.
-    let Scenario { loop_rate, seed, robot, motion, contact, tracker, load_cells, load, filter: _, detection: _ } = one;
+    let Scenario {
+        loop_rate,
+        seed,
+        robot,
+        motion,
+        contact,
+        tracker,
+        load_cells,
+        load,
+        filter: _,
+        detection: _,
+        estimation: _,
+    } = one;
     (*loop_rate, *seed, *contact) == (other.loop_rate, other.seed, other.contact)
         && (robot, motion, tracker) == (&other.robot, &other.motion, &other.tracker)
         && (load_cells, load) == (&other.load_cells, &other.load)

@@ -1,12 +1,15 @@
 //! `centrode model`: every quantity of the model in one configuration.
 
 use super::output::{Failure, json};
+use centrode_core::model::contact::Meeting;
+use centrode_core::model::contact::branch::{Branch, Ending, Surface};
 use centrode_core::model::joints::{joint_jacobian, joints};
-use centrode_core::model::{Configuration, Constrained, Rate, Segment};
+use centrode_core::model::{Assumed, Assumption, Configuration, Constrained, Rate, Segment, Touched, locate};
+use centrode_core::plant::Shape;
 use centrode_core::scenario::Robot;
 use centrode_core::scenario::plan::{LENGTHS, MAX_TURN, RADII, check_bend};
 use centrode_core::scenario::text::number;
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
 use std::io::Write;
 
@@ -25,6 +28,15 @@ pub struct ModelArgs {
     /// Arc length at which the segment is held, m; the base when left out.
     #[arg(long, value_name = "M", allow_hyphen_values = true, default_value_t = 0.0)]
     contact: f64,
+    /// How the segment is held there.
+    #[arg(long, value_enum, default_value_t = Kind::Clamp)]
+    kind: Kind,
+    /// Bend φ of the whole segment when contact began, rad; that of --theta-l when left out.
+    #[arg(long, value_name = "RAD", allow_hyphen_values = true)]
+    bend_at_contact: Option<f64>,
+    /// Radius of a round beam and of the backbone's envelope together, m; for the cylinder.
+    #[arg(long, value_name = "M", allow_hyphen_values = true, default_value_t = ROUNDING)]
+    rounding: f64,
     /// Velocity of (theta_l, delta), rad/s.
     #[arg(long, value_name = "TL,D", allow_hyphen_values = true, value_parser = rate, default_value = "-1,0")]
     rate: Rate,
@@ -43,6 +55,19 @@ pub struct ModelArgs {
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
+}
+
+/// As the default scenario has it, m.
+const ROUNDING: f64 = 0.0035;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Kind {
+    /// Position and slope, as in the paper.
+    Clamp,
+    /// The position along the normal: a flat beam.
+    Plane,
+    /// The same against a round beam, along which the backbone slides.
+    Cylinder,
 }
 
 fn rate(text: &str) -> Result<Rate, String> {
@@ -79,6 +104,41 @@ struct Answer {
     constrained_twist: [f64; 6],
     /// Null while nothing moves.
     constrained_centrode: Option<[f64; 3]>,
+    bend_at_contact: f64,
+    /// Force of the beam on the segment, N, along −n of its tangent plane: positive while the segment bends on.
+    contact_force: f64,
+    /// Slope of the backbone at the contact, rad.
+    contact_slope: f64,
+    /// Curvature above the contact, 1/m.
+    curvature_above: f64,
+    /// Curvature at the base, 1/m.
+    curvature_base: f64,
+    /// Arc length of the contact now, m: a round beam slides.
+    contact_arc_length: f64,
+    contact_position: [f64; 3],
+    tip_position: [f64; 3],
+    /// Derivative of the tip's position by the bend, m/rad.
+    tip_rate: [f64; 3],
+    /// What Eq. 24 makes of the constrained centrode with the bend at contact known, by what it takes the contact to be.
+    located_clamp: Option<Located>,
+    located_plane: Option<Located>,
+}
+
+/// An answer of Eq. 24, m.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Located {
+    arc_length: f64,
+    distance: f64,
+}
+
+/// The segment where it is held.
+struct Held {
+    shape: Shape,
+    force: f64,
+    slope: f64,
+    above: f64,
+    base: f64,
+    arc_length: f64,
 }
 
 impl ModelArgs {
@@ -122,7 +182,16 @@ impl ModelArgs {
         let arc = segment.arc(configuration);
         let (pose, jacobian) = arc.pose_and_jacobian(s);
         let (tip, tip_jacobian) = arc.pose_and_jacobian(length);
-        let held = Constrained::new(length, self.contact, configuration.bend(), configuration);
+        let met = self.bend_at_contact.unwrap_or_else(|| configuration.bend());
+        check_bend(&segment, "--bend-at-contact", met, met).map_err(|error| Failure::Input(error.to_string()))?;
+        let held = self.held(&segment, met, configuration)?;
+        let (held_tip, held_jacobian) = held.shape.tip_pose_and_jacobian();
+        let bending = held_jacobian.centrode(&held_tip.position, Rate::BENDING);
+        let located = |kind| {
+            let found = locate(Assumption { kind, met: Some(met) }, length, configuration, Rate::BENDING, &bending?)?;
+            Some(Located { arc_length: found.arc_length, distance: found.distance })
+        };
+        let constrained_centrode = held_jacobian.centrode(&held_tip.position, self.rate);
         let gradient = segment.energy_gradient(&configuration);
         Ok(Answer {
             length,
@@ -142,9 +211,68 @@ impl ModelArgs {
             energy: segment.energy(&configuration),
             energy_gradient: [gradient.theta_l, gradient.delta()],
             centrode: tip_jacobian.centrode(&tip.position, self.rate).map(Into::into),
-            constrained_position: held.tip_pose().position.into(),
-            constrained_twist: held.tip_twist(self.rate).to_array(),
-            constrained_centrode: held.centrode(self.rate).map(Into::into),
+            constrained_position: held_tip.position.into(),
+            constrained_twist: held_jacobian.twist(self.rate).to_array(),
+            constrained_centrode: constrained_centrode.map(Into::into),
+            bend_at_contact: met,
+            contact_force: held.force,
+            contact_slope: held.slope,
+            curvature_above: held.above,
+            curvature_base: held.base,
+            contact_arc_length: held.arc_length,
+            contact_position: held.shape.pose(held.arc_length).position.into(),
+            tip_position: held_tip.position.into(),
+            tip_rate: held_jacobian.twist(Rate::BENDING).linear.into(),
+            located_clamp: located(Assumed::Clamp),
+            located_plane: located(Assumed::Plane),
+        })
+    }
+}
+
+impl ModelArgs {
+    /// The segment as it is held since the bend `met` (rad).
+    fn held(&self, segment: &Segment, met: f64, configuration: Configuration) -> Result<Held, Failure> {
+        let (length, bend) = (segment.length, configuration.bend());
+        let surface = match self.kind {
+            Kind::Clamp => {
+                let held = Constrained::new(length, self.contact, met, configuration);
+                let (slope, upper) = (held.lower.configuration.bend(), length - self.contact);
+                let above = if upper > 0.0 { (bend - slope) / upper } else { f64::NAN };
+                let (base, arc_length) = (met / length, self.contact);
+                return Ok(Held { shape: Shape::Held(held), force: 0.0, slope, above, base, arc_length });
+            }
+            Kind::Plane => Surface::Plane,
+            Kind::Cylinder => {
+                let allowed = format!("from 0 to the length, {} m", number(length));
+                demand((0.0..=length).contains(&self.rounding), "--rounding", self.rounding, &allowed)?;
+                Surface::Cylinder { rounding: self.rounding / length }
+            }
+        };
+        let inside = self.contact > 0.0 && self.contact < length;
+        let allowed = "a place between the base and the end disk, for a beam that only touches (--kind)";
+        demand(inside, "--contact", self.contact, allowed)?;
+        let side = if bend < met { -1.0 } else { 1.0 };
+        let branch = Branch::new(Meeting { place: self.contact / length, bend: met, side }, surface, bend);
+        if let Some((end, how)) = branch.ending() {
+            let how = match how {
+                Ending::Snaps => "the segment snaps off the beam",
+                Ending::SlidesOff => "the beam slides over the segment's end",
+                Ending::Opens => "the segment comes off the beam",
+            };
+            let allowed = format!("met at a bend of {} rad, {how} at a bend of {} rad", number(met), number(end));
+            return Err(Failure::Input(format!("--theta-l = {} is not allowed: {allowed}", number(self.theta_l))));
+        }
+        let touched = Touched::new(length, std::sync::Arc::new(branch), configuration).detailed();
+        let touching = touched.touching().ok_or_else(|| {
+            Failure::Input(format!("--theta-l = {} is not allowed: no shape was found", number(self.theta_l)))
+        })?;
+        Ok(Held {
+            force: touching.force() * segment.bending_stiffness() / (length * length),
+            slope: touching.slope(),
+            above: touching.curvature_above() / length,
+            base: touching.curvature(0.0) / length,
+            arc_length: touching.at.place * length,
+            shape: Shape::Touched(touched),
         })
     }
 }
@@ -188,5 +316,13 @@ fn table(out: &mut impl Write, answer: &Answer) -> std::io::Result<()> {
     rows("constrained position", "mm", 1e3, &[&answer.constrained_position])?;
     rows("constrained linear", "mm/s", 1e3, &[&answer.constrained_twist[..3]])?;
     rows("constrained angular", "rad/s", 1.0, &[&answer.constrained_twist[3..]])?;
-    rows("constrained centrode", "mm", 1e3, &[&answer.constrained_centrode.unwrap_or(undefined)])
+    rows("constrained centrode", "mm", 1e3, &[&answer.constrained_centrode.unwrap_or(undefined)])?;
+    rows("bend, slope at contact", "deg", 1f64.to_degrees(), &[&[answer.bend_at_contact, answer.contact_slope]])?;
+    rows("contact at", "mm", 1e3, &[&[answer.contact_arc_length], &answer.contact_position])?;
+    rows("contact force", "N", 1.0, &[&[answer.contact_force]])?;
+    rows("curvature base, above", "1/m", 1.0, &[&[answer.curvature_base, answer.curvature_above]])?;
+    rows("tip by bend", "mm/rad", 1e3, &[&answer.tip_rate])?;
+    let located = |located: Option<Located>| located.map_or([f64::NAN; 2], |found| [found.arc_length, found.distance]);
+    rows("Eq. 24 with clamp", "mm", 1e3, &[&located(answer.located_clamp)])?;
+    rows("Eq. 24 with plane", "mm", 1e3, &[&located(answer.located_plane)])
 }

@@ -3,6 +3,7 @@
 use super::analyze::About;
 use super::output::{Failure, json};
 use centrode_core::detect::{Detection, Event, Method};
+use centrode_core::plant::{Happening, PlantEvent};
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 
@@ -39,6 +40,16 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
         )?,
         None if report.log.is_some() => writeln!(out, "contact     not known: a log holds no truth")?,
         None => writeln!(out, "contact     none")?,
+    }
+    for event in &report.plant {
+        let PlantEvent { what, time, bend, .. } = event;
+        let how = match what {
+            Happening::Met => continue,
+            Happening::Opened => "comes off the beam",
+            Happening::Snapped => "snaps off the beam, and is free from then on",
+            Happening::SlidOff => "slides off the beam, and is free from then on",
+        };
+        writeln!(out, "            at {time:.3} s (bend {:.1}°) the segment {how}", degrees(*bend))?;
     }
     match &report.detection {
         Some(Found { detection, delay }) => {

@@ -13,7 +13,7 @@ use centrode_core::run::Simulation;
 use centrode_core::scenario::Plan;
 use centrode_core::scenario::link::Page;
 use centrode_core::study::export::signed;
-use centrode_core::study::report::{Contact, Tally};
+use centrode_core::study::report::Tally;
 use centrode_core::study::timeline::{Timeline, simulated};
 use clap::Args;
 use std::io::Write;
@@ -73,8 +73,8 @@ impl RunArgs {
         if let Some(log) = log {
             log.finish()?;
         }
-        let contact = Contact::of(&plan, simulation.contact_time());
-        let report = Report::new(scenario, tally, simulation.events(), contact, None);
+        let truth = Some((&plan, simulation.plant_events()));
+        let report = Report::new(scenario, tally, simulation.events(), truth, None);
         print(out, &report, self.json)
     }
 }

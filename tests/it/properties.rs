@@ -2,7 +2,7 @@
 
 use crate::support::{about_z, arc, assert_near, position, rotation, segment};
 use centrode_core::model::joints::{configuration_from_joints, joint_jacobian_per_bend, joints};
-use centrode_core::model::{Configuration, Constrained, Mat3, Rate, Vec3, Wrench, locate};
+use centrode_core::model::{Assumption, Configuration, Constrained, Mat3, Rate, Vec3, Wrench, locate};
 use num_dual::{Dual64, DualNum};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
@@ -213,7 +213,7 @@ proptest! {
         let rate = Rate { theta_l: -1.0, delta: 0.0 };
         let truth = share * LENGTH;
         let c = Constrained::new(LENGTH, truth, bend, configuration).centrode(rate).expect("it moves");
-        let found = locate(LENGTH, configuration, rate, &c).expect("it moves");
+        let found = locate(Assumption::default(), LENGTH, configuration, rate, &c).expect("it moves");
         prop_assert!((found.arc_length - truth).abs() < 1e-9 * LENGTH, "{} {truth}", found.arc_length);
         prop_assert!(found.distance < 1e-9 * LENGTH);
     }

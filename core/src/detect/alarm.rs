@@ -121,7 +121,7 @@ impl Alarms {
             let detect = || {
                 let sensor = (method == Method::Fcd).then_some(&judgement.sensor_centrode)?;
                 let Location { arc_length, distance } =
-                    locate(settings.segment.length, *configuration, Rate::BENDING, sensor)?;
+                    locate(settings.assumption, settings.segment.length, *configuration, Rate::BENDING, sensor)?;
                 Some(Detection { time, theta_l, location: arc_length, distance })
             };
             match lamp.standing {

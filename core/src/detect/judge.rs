@@ -3,9 +3,9 @@
 use super::alarm::{Alarms, Crossing, Detection, Event};
 use super::evidence::{Evidence, Observer};
 use super::statistic::Method;
-use crate::model::Segment;
+use crate::model::{Assumed, Assumption, Segment};
 use crate::record::Recording;
-use crate::scenario::{Filter, Plan, Thresholds};
+use crate::scenario::{ContactKind, EstimationKind, Filter, Plan, Thresholds};
 
 /// What a recording is judged with.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,6 +20,8 @@ pub struct Settings {
     pub filter: Filter,
     /// Thresholds, and when they are looked at.
     pub thresholds: Thresholds,
+    /// What Eq. 24 takes the contact to be.
+    pub assumption: Assumption,
 }
 
 impl Settings {
@@ -33,6 +35,20 @@ impl Settings {
             loop_rate: scenario.loop_rate,
             filter: scenario.filter.clone(),
             thresholds: scenario.detection.clone(),
+            assumption: assumption(plan),
+        }
+    }
+}
+
+/// What Eq. 24 takes a contact to be, by a plan.
+fn assumption(plan: &Plan) -> Assumption {
+    let scenario = plan.scenario();
+    match scenario.estimation.kind {
+        EstimationKind::Clamp => Assumption { kind: Assumed::Clamp, met: None },
+        EstimationKind::Plane => Assumption { kind: Assumed::Plane, met: None },
+        EstimationKind::AsSimulated => {
+            let kind = if scenario.contact.kind == ContactKind::Clamp { Assumed::Clamp } else { Assumed::Plane };
+            Assumption { kind, met: plan.contact().map(|contact| contact.bend) }
         }
     }
 }
@@ -67,14 +83,14 @@ pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
     let mut observer = Observer::new(settings);
     let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
     let judged = Judged { settings: settings.clone(), evidence, crossings: Vec::new(), events: Vec::new() };
-    judged.again(recording, settings.thresholds.clone())
+    judged.again(recording, settings.thresholds.clone(), settings.assumption)
 }
 
 impl Judged {
-    /// The same evidence, of `recording`, against other thresholds: nothing is filtered again.
+    /// The same evidence, of `recording`, against other thresholds and under another assumption: nothing is filtered again.
     #[must_use]
-    pub fn again(mut self, recording: &Recording, thresholds: Thresholds) -> Self {
-        self.settings.thresholds = thresholds;
+    pub fn again(mut self, recording: &Recording, thresholds: Thresholds, assumption: Assumption) -> Self {
+        (self.settings.thresholds, self.settings.assumption) = (thresholds, assumption);
         let mut alarms = Alarms::new(&self.settings);
         for (entry, evidence) in recording.entries.iter().zip(&self.evidence) {
             alarms.look(entry.time, &entry.configuration, &evidence.judgement);

@@ -1,5 +1,6 @@
 //! Where along the backbone the contact is (Eq. 24).
 
+use super::contact::touched::Trial;
 use super::{Configuration, Constrained, Rate, Vec3};
 
 /// The paper tests a discrete set of points; this many bracket the minimum before it is refined.
@@ -17,20 +18,55 @@ pub struct Location {
     pub distance: f64,
 }
 
+/// What a contact is taken to do to the part below it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Assumed {
+    /// It holds position and slope: that part is frozen, as in the paper.
+    #[default]
+    Clamp,
+    /// It holds the position along its normal: that part goes on changing shape. A round beam does nearly the same.
+    Plane,
+}
+
+/// What Eq. 24 takes a contact to be.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Assumption {
+    /// What it does to the part below it.
+    pub kind: Assumed,
+    /// Bend φ_c at which it is known to have begun, rad; none takes the bend at the instant of detection for it, as the paper does.
+    pub met: Option<f64>,
+}
+
 /// The s in (0, L) whose constrained centrode c_c(s) is nearest the sensor's c_s (Eq. 24).
 ///
-/// As in the paper, the part below s is taken to have frozen in the shape of `configuration`, the one
-/// commanded at the instant of detection; `rate` is the commanded ψ̇ then. `None` when the rate is zero.
+/// `configuration` is the one commanded at the instant of detection, `rate` the commanded ψ̇ then. `None` when the rate is zero.
 #[must_use]
-pub fn locate(length: f64, configuration: Configuration, rate: Rate, sensor_centrode: &Vec3) -> Option<Location> {
-    let distance = |s: f64| {
-        Constrained::new(length, s, configuration.bend(), configuration)
-            .centrode(rate)
-            .map_or(f64::INFINITY, |c| (c - sensor_centrode).norm())
-    };
+pub fn locate(
+    assumption: Assumption,
+    length: f64,
+    configuration: Configuration,
+    rate: Rate,
+    sensor_centrode: &Vec3,
+) -> Option<Location> {
+    let met = assumption.met.unwrap_or_else(|| configuration.bend());
+    let to_sensor = |centrode: Option<Vec3>| centrode.map_or(f64::INFINITY, |c| (c - sensor_centrode).norm());
+    match assumption.kind {
+        Assumed::Clamp => {
+            nearest(length, |s| to_sensor(Constrained::new(length, s, met, configuration).centrode(rate)))
+        }
+        Assumed::Plane => {
+            let mut trial = Trial::new(length, configuration, met);
+            nearest(length, |s| to_sensor(trial.centrode(s, rate)))
+        }
+    }
+}
+
+/// The place in (0, L) with the least distance.
+fn nearest(length: f64, mut distance: impl FnMut(f64) -> f64) -> Option<Location> {
     let place = |k: usize| length * k as f64 / GRID as f64;
-    let nearest = (1..GRID).min_by(|&a, &b| distance(place(a)).total_cmp(&distance(place(b))))?;
-    if !distance(place(nearest)).is_finite() {
+    let distances: [f64; GRID] = std::array::from_fn(|k| if k == 0 { f64::INFINITY } else { distance(place(k)) });
+    let nearest = (1..GRID).min_by(|&a, &b| distances[a].total_cmp(&distances[b]))?;
+    if !distances[nearest].is_finite() {
         return None;
     }
     let (mut low, mut high) = (place(nearest - 1), place(nearest + 1));

@@ -84,6 +84,12 @@ impl Jacobian {
 }
 
 impl Segment {
+    /// Bending stiffness EI of the whole segment, N·m²: of its primary and its three secondary backbones.
+    #[must_use]
+    pub fn bending_stiffness(&self) -> f64 {
+        self.ep_ip + 3.0 * self.es_is
+    }
+
     /// The primary backbone in a configuration.
     #[must_use]
     pub fn arc(&self, configuration: Configuration) -> Arc {

@@ -65,7 +65,7 @@ impl Run {
             return None;
         }
         let judged = judge(&recording, &Settings::of(&plan));
-        Some(Self { contact_time: recording.contact_time(), recording, judged, plan })
+        Some(Self { plant_events: recording.plant_events(&plan), recording, judged, plan })
     }
 
     /// Whether a rig made the recording.
@@ -91,7 +91,9 @@ impl Run {
     pub(super) fn judge_again(&mut self, plan: Plan) -> Anew {
         let settings = Settings::of(&plan);
         let before = &self.judged.settings;
-        let same = Settings { thresholds: before.thresholds.clone(), ..settings.clone() } == *before;
+        let same =
+            Settings { thresholds: before.thresholds.clone(), assumption: before.assumption, ..settings.clone() }
+                == *before;
         if same {
             self.alarm_again(settings);
         } else {

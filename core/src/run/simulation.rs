@@ -4,6 +4,8 @@ use super::Sample;
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
 use crate::detect::{Crossing, Detection, Event, Settings};
+use crate::plant::PlantEvent;
+use crate::plant::event::Watch;
 use crate::record::{Entry, Recorder};
 use crate::scenario::Plan;
 
@@ -13,7 +15,7 @@ pub struct Simulation<'a> {
     recorder: Recorder<'a>,
     observer: Observer,
     alarms: Alarms,
-    contact_time: Option<f64>,
+    watch: Watch,
     /// What was stored last.
     entry: Option<Entry>,
 }
@@ -27,7 +29,7 @@ impl<'a> Simulation<'a> {
             recorder: Recorder::new(plan),
             observer: Observer::new(&settings),
             alarms: Alarms::new(&settings),
-            contact_time: None,
+            watch: Watch::default(),
             entry: None,
         }
     }
@@ -64,7 +66,13 @@ impl<'a> Simulation<'a> {
     /// Truth: time of the first sample in contact so far, s.
     #[must_use]
     pub fn contact_time(&self) -> Option<f64> {
-        self.contact_time
+        self.watch.contact_time()
+    }
+
+    /// Truth: what has become of contacts so far, in order.
+    #[must_use]
+    pub fn plant_events(&self) -> &[PlantEvent] {
+        self.watch.events()
     }
 }
 
@@ -75,9 +83,7 @@ impl Iterator for Simulation<'_> {
         let (entry, truth) = self.recorder.next()?;
         let evidence = self.observer.observe(&entry);
         self.alarms.look(entry.time, &entry.configuration, &evidence.judgement);
-        if truth.held.is_some() && self.contact_time.is_none() {
-            self.contact_time = Some(entry.time);
-        }
+        self.watch.look(self.recorder.plan(), entry.time, &entry.configuration, truth.held);
         self.entry = Some(entry);
         Some(Sample::new(&entry, Some(&truth), &evidence))
     }

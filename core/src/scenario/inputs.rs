@@ -31,6 +31,8 @@ pub struct Scenario {
     pub filter: Filter,
     /// Thresholds and arming.
     pub detection: Thresholds,
+    /// How a contact is placed.
+    pub estimation: Estimation,
 }
 
 impl Default for Scenario {
@@ -46,6 +48,7 @@ impl Default for Scenario {
             load: Load::default(),
             filter: Filter::default(),
             detection: Thresholds::default(),
+            estimation: Estimation::default(),
         }
     }
 }
@@ -480,4 +483,30 @@ impl Threshold {
             Self::Off(_) => None,
         }
     }
+}
+
+/// How a contact is placed.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Estimation {
+    /// The model of the contact in Eq. 24 (default: the paper's).
+    pub kind: EstimationKind,
+}
+
+/// The model of the contact in Eq. 24.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EstimationKind {
+    /// A beam that clamps the backbone, as in the paper.
+    #[default]
+    Clamp,
+    /// A beam that only touches it.
+    Plane,
+    /// What the simulated beam does, from the bend on at which it does it: a rig knows neither.
+    AsSimulated,
+}
+
+impl EstimationKind {
+    /// All of them.
+    pub const ALL: &[Self] = &[Self::Clamp, Self::Plane, Self::AsSimulated];
 }

@@ -1,6 +1,7 @@
 //! What a run or a log comes to: crossings, events, the detection, and the largest values judged.
 
 use crate::detect::{Crossing, Detection, Event, Method};
+use crate::plant::{Happening, PlantEvent};
 use crate::run::{Run, Sample};
 use crate::scenario::{Plan, Scenario, Thresholds};
 use serde::Serialize;
@@ -28,6 +29,9 @@ pub struct Report<L = ()> {
     pub samples: usize,
     /// Truth; null when the beam never holds, and for a log, which does not know it.
     pub contact: Option<Contact>,
+    /// Truth: what becomes of the contact, in order; left out where nothing touches or, for a log, nothing is known.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub plant: Vec<PlantEvent>,
     /// Every time a threshold was passed upward, as far as they are listed.
     pub crossings: Vec<Crossing>,
     /// What each detector makes of its crossings.
@@ -45,14 +49,23 @@ pub struct Report<L = ()> {
 }
 
 impl<L> Report<L> {
-    /// Of what was simulated, or of a log.
+    /// Of what was simulated, with its plan and what became of the contacts, or of a log.
     #[must_use]
-    pub fn new(scenario: Scenario, tally: Tally, events: &[Event], contact: Option<Contact>, log: Option<L>) -> Self {
+    pub fn new(
+        scenario: Scenario,
+        tally: Tally,
+        events: &[Event],
+        truth: Option<(&Plan, &[PlantEvent])>,
+        log: Option<L>,
+    ) -> Self {
+        let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
+        let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
         let delay = |detection: &Detection| contact.as_ref().map(|contact| detection.time - contact.time);
         let detection = detection.map(|detection| Found { delay: delay(&detection), detection });
         let Tally { samples, crossings: Crossings { listed, more, .. }, peak, .. } = tally;
-        Self { scenario, samples, contact, crossings: listed, events: events.to_vec(), more, detection, peak, log }
+        let events = events.to_vec();
+        Self { scenario, samples, contact, plant, crossings: listed, events, more, detection, peak, log }
     }
 }
 
@@ -70,7 +83,7 @@ impl Report {
             tally.add(&sample, now, &scenario.detection)?;
             crossings = later;
         }
-        Ok(Self::new(scenario.clone(), tally, run.events(), Contact::of(&run.plan, run.contact_time()), None))
+        Ok(Self::new(scenario.clone(), tally, run.events(), Some((&run.plan, run.plant_events())), None))
     }
 }
 
@@ -125,11 +138,12 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// The contact of a plan that began at a time (s), if both are there.
+    /// The first contact of a plan that was met.
     #[must_use]
-    pub fn of(plan: &Plan, time: Option<f64>) -> Option<Self> {
-        let (contact, time) = plan.contact().zip(time)?;
-        Some(Self { time, arc_length: contact.arc_length, bend: contact.bend })
+    pub fn of(plan: &Plan, plant: &[PlantEvent]) -> Option<Self> {
+        let met = plant.iter().find(|event| event.what == Happening::Met)?;
+        let contact = plan.contacts().get(met.contact)?;
+        Some(Self { time: met.time, arc_length: contact.arc_length, bend: contact.bend })
     }
 }
 

@@ -62,6 +62,27 @@ pub fn solve(basis: &Basis, meeting: &Meeting, bend: f64, from: Option<&Unknowns
     None
 }
 
+/// The shape at first contact, with its derivative in closed form: the arc is still free and presses on nothing.
+#[must_use]
+pub fn at_first_contact(basis: &Basis, meeting: &Meeting) -> Touching {
+    let (slope, place, bend) = (meeting.slope(), meeting.place, meeting.bend);
+    let eta = place / (1.0 - place);
+    let mut constraint = [0.0; MODES];
+    for (row, weight) in basis.slopes.iter().zip(&basis.weights) {
+        let along = weight * libm::cos(slope * (row[0] - 1.0));
+        constraint.iter_mut().zip(row).for_each(|(sum, by)| *sum += along * by);
+    }
+    // Without a force the Hessian is diagonal.
+    let compliance: [f64; MODES] =
+        std::array::from_fn(|j| if j == 0 { 1.0 / (1.0 + eta) } else { 2.0 * j as f64 + 1.0 });
+    let yielding: f64 = constraint.iter().zip(&compliance).map(|(g, c)| g * g * c).sum();
+    let multiplier = eta * compliance[0] * constraint[0] / yielding;
+    let pushed = |j: usize| compliance[j] * (if j == 0 { eta } else { 0.0 } - constraint[j] * multiplier);
+    let by_bend = Unknowns { coefficients: std::array::from_fn(pushed), place: 0.0, multiplier };
+    let at = Unknowns { coefficients: first(slope), place, multiplier: 0.0 };
+    Touching { bend, at, by_bend, force_slope: slope }
+}
+
 /// Coefficients of the free arc: constant curvature.
 pub(super) fn first(slope: f64) -> [f64; MODES] {
     let mut coefficients = [0.0; MODES];

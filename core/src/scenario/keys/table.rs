@@ -6,7 +6,7 @@ use crate::scenario::keys::quantity::Quantity::{
 };
 use crate::scenario::keys::{Access, Allowed, Key, Usual};
 use crate::scenario::plan::{LENGTHS, MAX_FORCE, MAX_MOMENT, MAX_SEED, MAX_TIME, MAX_TURN, RADII};
-use crate::scenario::{Averaging, CellErrors, ContactKind, Mounting, Place, Scenario, Start, Xi1Rule};
+use crate::scenario::{Averaging, CellErrors, ContactKind, EstimationKind, Mounting, Place, Scenario, Start, Xi1Rule};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Keys that belong together.
@@ -30,6 +30,7 @@ pub const GROUPS: &[Group] = &[
     Group { path: "load", sentence: "A wrench on the end disk, which ramps up and then stays constant." },
     Group { path: "filter", sentence: "The moving average over the tracker's readings." },
     Group { path: "detection", sentence: "Thresholds, and when they apply." },
+    Group { path: "estimation", sentence: "How a contact is placed." },
 ];
 
 macro_rules! number {
@@ -516,4 +517,12 @@ pub const KEYS: &[Key] = &[
     key("detection.hold", Time, NOT_NEGATIVE, number!(detection.hold), "How long the value must stay low to clear an event; no event is shorter.")
         .usual_range(0.0, 2.0)
         .illustrative(),
+    key(
+        "estimation.kind",
+        Word,
+        Allowed::Words(&["clamp", "plane", "as-simulated"]),
+        one_of!(estimation.kind, EstimationKind::ALL),
+        "What Eq. 24 takes the contact to be: clamp is a beam that holds position and slope, as in the paper; plane is one that only \
+         touches; as-simulated is what contact.kind says (a plane for a cylinder), with the bend at which the contact truly began.",
+    ),
 ];
