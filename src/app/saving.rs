@@ -67,7 +67,7 @@ impl Format {
             (Self::Clear, _) => ("PNG (2×), transparent", "The same without background and floor"),
             (Self::Png, _) => ("PNG (2×)", "The same as pixels, two to a point"),
             (Self::Csv, Subject::Plots) => ("CSV", "Every channel of the run at loop rate, in SI units"),
-            (Self::Csv, Subject::Table) => ("CSV", "Both tables, in SI units"),
+            (Self::Csv, Subject::Table) => ("CSV", "All tables, in SI units"),
             (Self::Between, _) => ("CSV, A to B", "The same between the two marked times"),
             (Self::Csv, _) => ("CSV", "The numbers, in SI units"),
             (Self::Latex, _) => ("LaTeX", "Both tables as a plain tabular"),
@@ -263,7 +263,7 @@ impl App {
             Subject::Tuning => self.stages.tuning(&self.tuner).ok_or_else(|| UNDONE.into()),
             Subject::Figure(_) | Subject::Table | Subject::Map => match self.found()? {
                 Found::Figure(chart) => Ok(chart.clone()),
-                Found::Table(table, rows) => Ok(with_words(table, rows, (scenario, REPEATS))),
+                Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (scenario, REPEATS))),
                 Found::Map(found) => Ok(map::chart::chart(found, &self.memo.run().plan)),
             },
         }

@@ -122,7 +122,7 @@ pub fn stage(
             figure::figure(ui, body, (shown, version), inputs, &mut state.figure);
         }
         Some((Found::Table(shown, rows), version)) => {
-            table::table(ui, body, (shown, rows, version), &mut state.estimates);
+            table::table(ui, body, (shown, rows.each_ref().map(Vec::as_slice), version), &mut state.estimates);
         }
         Some((Found::Map(shown), version)) => map::map(ui, body, shown, version, inputs, &mut state.map, out),
         None => {

@@ -1,4 +1,4 @@
-//! `centrode table2`: the paper's Table II beside a simulated one.
+//! `centrode table2`: the paper's Table II beside simulated ones.
 
 use super::ScenarioArgs;
 use super::draw::{self, Format};
@@ -18,19 +18,19 @@ use std::path::PathBuf;
 /// Flags of `centrode table2`.
 #[derive(Debug, Args)]
 pub struct Table2Args {
-    /// Without a file, preset or link, `bench`. Its contact is ignored: each disk has the contact of the preset `disk-1`, `bench` or `disk-3`.
+    /// Without a file, preset or link, `bench`. Place and time of its contact are ignored: each disk has those of the preset `disk-1`, `bench` or `disk-3`.
     #[command(flatten)]
     scenario: ScenarioArgs,
     /// Experiments on each disk, 1 to 100000.
     #[arg(long, value_name = "N", default_value_t = PAPER_REPEATS)]
     repeats: usize,
-    /// Print JSON instead of a table: both tables and every experiment, in SI units.
+    /// Print JSON instead of a table: all tables and every experiment, in SI units.
     #[arg(long)]
     json: bool,
-    /// Write both tables to a CSV file, units in the header.
+    /// Write all tables to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Write both tables to a LaTeX file, a plain tabular with units in its head.
+    /// Write all tables to a LaTeX file, a plain tabular with units in its head.
     #[arg(long, value_name = "FILE")]
     latex: Option<PathBuf>,
     /// Draw every estimate against the true place to a file, .svg or .png.
@@ -51,6 +51,7 @@ struct Report<'a> {
 struct Rows<'a> {
     paper: &'a [Row],
     simulated: &'a [Row],
+    other: &'a [Row],
 }
 
 impl Table2Args {
@@ -66,7 +67,7 @@ impl Table2Args {
         job.finish();
         let table = job.table();
         if let (Some(mut file), Some(format)) = (drawing, format) {
-            let chart = with_words(&table, job.rows(), (&scenario, self.repeats));
+            let chart = with_words(&table, [job.rows(), job.other_rows()], (&scenario, self.repeats));
             draw::write(&mut file, &signed(chart, &scenario, Page::of("table2")), format)?;
             file.finish()?;
         }
@@ -79,7 +80,7 @@ impl Table2Args {
             file.finish()?;
         }
         if self.json {
-            let rows = Rows { paper: &paper_rows(), simulated: job.rows() };
+            let rows = Rows { paper: &paper_rows(), simulated: job.rows(), other: job.other_rows() };
             json(out, &Report { scenario: &scenario, repeats: self.repeats, table: &table, rows })
         } else {
             Ok(text(out, &table)?)
@@ -89,22 +90,27 @@ impl Table2Args {
 
 fn text(out: &mut impl Write, table: &Table2) -> io::Result<()> {
     let [one, ..] = &table.simulated;
-    writeln!(out, "Table II: the paper's, and simulated with {} experiments on each disk", one.repeats)?;
+    writeln!(
+        out,
+        "Table II: the paper's, and simulated with {} experiments on each disk by kind of contact",
+        one.repeats
+    )?;
     writeln!(out, "mean ± standard deviation where contact was found; – is not known, or not defined")?;
-    for (paper, simulated) in table.paper.iter().zip(&table.simulated) {
+    for k in 0..table.paper.len() {
         writeln!(out)?;
-        let mut line =
-            |label: &str, values: [String; 2]| writeln!(out, "{label:<22} {:>18} {:>18}", values[0], values[1]);
-        line(&format!("disk {}", paper.disk), ["paper".into(), "simulated".into()])?;
-        let both = [paper, simulated];
-        line("true place [mm]", both.map(|disk| number(disk.arc_length * 1e3, 2)))?;
-        line("contact from [s]", both.map(|disk| number(disk.contact_time, 3)))?;
-        line("found", both.map(|disk| format!("{} of {}", disk.found, disk.repeats)))?;
-        line("false alarms", both.map(|disk| disk.false_alarms.map_or("–".into(), |count| count.to_string())))?;
+        let mut line = |label: &str, values: [String; 3]| {
+            writeln!(out, "{label:<22} {:>18} {:>18} {:>18}", values[0], values[1], values[2])
+        };
+        let all = [&table.paper[k], &table.simulated[k], &table.other[k]];
+        line(&format!("disk {}", all[0].disk), ["paper", table.kind.name(), table.other_kind.name()].map(Into::into))?;
+        line("true place [mm]", all.map(|disk| number(disk.arc_length * 1e3, 2)))?;
+        line("contact from [s]", all.map(|disk| number(disk.contact_time, 3)))?;
+        line("found", all.map(|disk| format!("{} of {}", disk.found, disk.repeats)))?;
+        line("false alarms", all.map(|disk| disk.false_alarms.map_or("–".into(), |count| count.to_string())))?;
         for quantity in &QUANTITIES {
-            line(quantity.label, both.map(|disk| plus_minus((quantity.of)(disk), quantity.scale, quantity.digits)))?;
+            line(quantity.label, all.map(|disk| plus_minus((quantity.of)(disk), quantity.scale, quantity.digits)))?;
         }
-        line("estimate − truth [mm]", both.map(|disk| number(disk.bias * 1e3, 2)))?;
+        line("estimate − truth [mm]", all.map(|disk| number(disk.bias * 1e3, 2)))?;
     }
     Ok(())
 }

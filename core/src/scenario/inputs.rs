@@ -181,6 +181,22 @@ pub enum ContactKind {
 impl ContactKind {
     /// All of them.
     pub const ALL: &[Self] = &[Self::Clamp, Self::Plane, Self::Cylinder];
+
+    /// What it is shown beside: a flat beam that only touches, or a clamp where it is flat itself.
+    #[must_use]
+    pub fn other(self) -> Self {
+        if self == Self::Plane { Self::Clamp } else { Self::Plane }
+    }
+
+    /// As files have it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Clamp => "clamp",
+            Self::Plane => "plane",
+            Self::Cylinder => "cylinder",
+        }
+    }
 }
 
 /// Where the beam meets the backbone.

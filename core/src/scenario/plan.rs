@@ -48,13 +48,18 @@ pub struct PlannedContact {
 
 impl PlannedContact {
     /// A beam at `arc_length` (m) that holds beyond `bend` (rad), whichever way the motion goes through it; of the scenario's
-    /// kind.
+    /// kind. Its shapes are sketched ([`Branch::sketched`]): one of many on a map.
     #[must_use]
     pub fn beyond(arc_length: f64, bend: f64, scenario: &Scenario) -> Self {
-        Self::new(arc_length, bend, side_beyond(bend, &scenario.motion), scenario)
+        Self::new((arc_length, bend), side_beyond(bend, &scenario.motion), scenario, Branch::sketched)
     }
 
-    fn new(arc_length: f64, bend: f64, side: f64, scenario: &Scenario) -> Self {
+    fn new(
+        (arc_length, bend): (f64, f64),
+        side: f64,
+        scenario: &Scenario,
+        follow: fn(Meeting, Surface, f64) -> Branch,
+    ) -> Self {
         let length = scenario.robot.length;
         let surface = match scenario.contact.kind {
             ContactKind::Clamp => None,
@@ -65,7 +70,7 @@ impl PlannedContact {
             let motion = &scenario.motion;
             let ends = [motion.theta_start, motion.theta_end].map(|theta_l| side * bend_from_theta_l(theta_l));
             let last = side * ends[0].max(ends[1]).max(side * bend);
-            Arc::new(Branch::new(Meeting { place: arc_length / length, bend, side }, surface, last))
+            Arc::new(follow(Meeting { place: arc_length / length, bend, side }, surface, last))
         });
         Self { arc_length, bend, side, touch }
     }
@@ -229,7 +234,7 @@ fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, Scenar
         let allowed = Allowed::Range(Limit::At(0.0), Limit::Beyond(length / inside));
         return Err(Refused::error("contact.rounding", Quantity::Length, Value::Number(rounding), allowed));
     }
-    Ok(Some(PlannedContact::new(arc_length, bend, side, scenario)))
+    Ok(Some(PlannedContact::new((arc_length, bend), side, scenario, Branch::new)))
 }
 
 /// The side on which a bend (rad) lies: away from straight, or where the motion goes.

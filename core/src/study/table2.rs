@@ -1,4 +1,4 @@
-//! The paper's Table II, as printed and as the simulated experiment gives it.
+//! The paper's Table II, as printed and as the simulated experiment gives it with two kinds of contact.
 //!
 //! Three disks are met one after the other and each experiment is repeated. The table says when the contact was
 //! detected, at which θL, and where along the backbone it was placed.
@@ -15,7 +15,7 @@ use crate::record::Script;
 use crate::run::kept;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::preset::find;
-use crate::scenario::{Plan, Refused, Scenario, ScenarioError};
+use crate::scenario::{Contact, ContactKind, Plan, Refused, Scenario, ScenarioError};
 use libm::sqrt;
 use serde::Serialize;
 
@@ -121,13 +121,19 @@ impl Disk {
     }
 }
 
-/// Table II twice, disk by disk.
+/// Table II three times, disk by disk.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Table2 {
     /// From the rows that the paper prints.
     pub paper: [Disk; 3],
-    /// From the simulated experiments made so far.
+    /// From the experiments made so far with the scenario's kind of contact.
     pub simulated: [Disk; 3],
+    /// What that kind is.
+    pub kind: ContactKind,
+    /// From the same experiments with the other kind.
+    pub other: [Disk; 3],
+    /// What the other kind is: a flat beam that only touches, or a clamp where the scenario's own is flat.
+    pub other_kind: ContactKind,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -186,16 +192,57 @@ fn numbers<const N: usize>(text: &str) -> impl Iterator<Item = [f64; N]> {
     })
 }
 
-/// The simulated Table II; a step is one experiment, and the disks take turns.
+/// The simulated Table II; a step is one experiment with either kind of contact, and the disks take turns.
 #[derive(Debug, Clone)]
 pub struct Table2Job {
-    plans: [(Met, Plan, Script); 3],
+    own: Experiments,
+    other: Experiments,
     repeats: usize,
+}
+
+/// The experiments with one kind of contact.
+#[derive(Debug, Clone)]
+struct Experiments {
+    kind: ContactKind,
+    plans: [(Met, Plan, Script); 3],
     rows: Vec<Row>,
 }
 
+impl Experiments {
+    fn new(base: &Scenario, kind: ContactKind) -> Result<Self, ScenarioError> {
+        let mut plans = Vec::with_capacity(PRESETS.len());
+        for (k, name) in PRESETS.into_iter().enumerate() {
+            let Contact { place, start, .. } = find(name)?.scenario()?.contact;
+            let contact = Contact { place, start, kind, ..base.contact };
+            let plan = kept(Plan::new(&Scenario { contact, ..base.clone() })?)?;
+            let script = Script::new(&plan);
+            let truth = Met {
+                disk: k as u64 + 1,
+                arc_length: base.robot.disks[k],
+                contact_time: script.contact_time().unwrap_or(f64::NAN),
+            };
+            plans.push((truth, plan, script));
+        }
+        let plans = plans.try_into().expect("one for each preset");
+        Ok(Self { kind, plans, rows: Vec::new() })
+    }
+
+    fn step(&mut self) {
+        let (truth, plan, script) = &self.plans[self.rows.len() % PRESETS.len()];
+        let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
+        self.rows.push(experiment(&plan.with_seed(seed), script, truth));
+    }
+
+    fn disks(&self) -> [Disk; 3] {
+        self.plans.each_ref().map(|(truth, ..)| {
+            let alarms = self.rows.iter().filter(|row| row.disk == truth.disk && row.outcome == Outcome::FalseAlarm);
+            Disk::new(*truth, &self.rows, Some(alarms.count()))
+        })
+    }
+}
+
 impl Table2Job {
-    /// The experiment of `base` on disks 1, 2 and 3, each `repeats` times.
+    /// The experiment of `base` on disks 1, 2 and 3, each `repeats` times, with its own kind of contact and with another.
     ///
     /// Everything is as in `base` but for the contact: its place and time are those of the presets `disk-1`, `bench`
     /// and `disk-3`. With `bench` as base, the first experiments are these presets themselves. Later ones have the
@@ -215,36 +262,33 @@ impl Table2Job {
             let disks = Value::List(base.robot.disks.clone());
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
-        let mut plans = Vec::with_capacity(PRESETS.len());
-        for (k, name) in PRESETS.into_iter().enumerate() {
-            let scenario = Scenario { contact: find(name)?.scenario()?.contact, ..base.clone() };
-            let plan = kept(Plan::new(&scenario)?)?;
-            let script = Script::new(&plan);
-            let truth = Met {
-                disk: k as u64 + 1,
-                arc_length: base.robot.disks[k],
-                contact_time: script.contact_time().unwrap_or(f64::NAN),
-            };
-            plans.push((truth, plan, script));
-        }
-        let plans = plans.try_into().expect("one for each preset");
-        Ok(Self { plans, repeats, rows: Vec::new() })
+        let kind = base.contact.kind;
+        Ok(Self { own: Experiments::new(base, kind)?, other: Experiments::new(base, kind.other())?, repeats })
     }
 
-    /// The experiments made so far: disks 1, 2, 3 of the first repeat, then of the second, and so on.
+    /// The experiments made so far with the scenario's kind of contact: disks 1, 2, 3 of the first repeat, then of the second,
+    /// and so on.
     #[must_use]
     pub fn rows(&self) -> &[Row] {
-        &self.rows
+        &self.own.rows
     }
 
-    /// Both tables, from the experiments made so far.
+    /// The same with the other kind.
+    #[must_use]
+    pub fn other_rows(&self) -> &[Row] {
+        &self.other.rows
+    }
+
+    /// All tables, from the experiments made so far.
     #[must_use]
     pub fn table(&self) -> Table2 {
-        let simulated = self.plans.each_ref().map(|(truth, ..)| {
-            let alarms = self.rows.iter().filter(|row| row.disk == truth.disk && row.outcome == Outcome::FalseAlarm);
-            Disk::new(*truth, &self.rows, Some(alarms.count()))
-        });
-        Table2 { paper: paper(), simulated }
+        Table2 {
+            paper: paper(),
+            simulated: self.own.disks(),
+            kind: self.own.kind,
+            other: self.other.disks(),
+            other_kind: self.other.kind,
+        }
     }
 }
 
@@ -253,13 +297,12 @@ impl Job for Table2Job {
         if self.progress().is_complete() {
             return;
         }
-        let (truth, plan, script) = &self.plans[self.rows.len() % PRESETS.len()];
-        let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
-        self.rows.push(experiment(&plan.with_seed(seed), script, truth));
+        self.own.step();
+        self.other.step();
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.rows.len() as u64, of: self.repeats as u64 * PRESETS.len() as u64 }
+        Progress { done: self.own.rows.len() as u64, of: self.repeats as u64 * PRESETS.len() as u64 }
     }
 }
 

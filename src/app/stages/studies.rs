@@ -2,7 +2,7 @@
 
 use crate::app::stages::stage::Stage;
 use centrode_core::chart::Chart;
-use centrode_core::scenario::{Contact, Place, Scenario, ScenarioError};
+use centrode_core::scenario::{Contact, ContactKind, Place, Scenario, ScenarioError};
 use centrode_core::study::figure::FigureJob;
 use centrode_core::study::map::{ContactMap, MapJob};
 use centrode_core::study::table2::{Row, Table2, Table2Job};
@@ -12,7 +12,7 @@ use centrode_core::study::{Job, Progress};
 pub const REPEATS: usize = 20;
 /// Bends and places of the map.
 pub const CELLS: (usize, usize) = (120, 90);
-/// Rows of the map, each a fifth of a millisecond natively, that are done in a frame.
+/// Rows of the map, each a fifth of a millisecond natively, that are done in a frame; one where shapes have to be solved for.
 const ROWS: usize = 9;
 
 /// What has been found.
@@ -20,8 +20,8 @@ const ROWS: usize = 9;
 pub enum Found {
     /// A figure.
     Figure(Chart),
-    /// Both tables, and the experiments behind the simulated one.
-    Table(Box<Table2>, Vec<Row>),
+    /// The tables, and the experiments behind the simulated ones: of the scenario's kind of contact, and of the other.
+    Table(Box<Table2>, [Vec<Row>; 2]),
     /// The map.
     Map(ContactMap),
 }
@@ -63,7 +63,9 @@ impl Work {
     fn found(&self) -> Found {
         match self {
             Self::Figure(job) => Found::Figure(job.chart()),
-            Self::Table(job) => Found::Table(Box::new(job.table()), job.rows().to_vec()),
+            Self::Table(job) => {
+                Found::Table(Box::new(job.table()), [job.rows(), job.other_rows()].map(<[Row]>::to_vec))
+            }
             Self::Map(job) => Found::Map(job.map().clone()),
         }
     }
@@ -85,8 +87,8 @@ impl Studies {
     pub fn update(&mut self, stage: Stage, scenario: &Scenario) {
         let mut scenario = scenario.clone();
         if matches!(stage, Stage::Table2 | Stage::Map) {
-            // They put in contacts of their own.
-            scenario.contact = Contact { place: Place::Nowhere, ..Contact::default() };
+            // They put in places and times of their own.
+            scenario.contact = Contact { place: Place::Nowhere, start: Contact::default().start, ..scenario.contact };
         }
         if self.inputs.as_ref().is_some_and(|(was, inputs)| *was == stage && *inputs == scenario) {
             return;
@@ -105,7 +107,10 @@ impl Studies {
     /// Does a few pieces; returns whether any are left.
     pub fn work(&mut self) -> bool {
         let Some(work) = &mut self.work else { return false };
-        let pieces = if matches!(work, Work::Map(_)) { ROWS } else { 1 };
+        let pieces = match (&work, &self.inputs) {
+            (Work::Map(_), Some((_, scenario))) if scenario.contact.kind == ContactKind::Clamp => ROWS,
+            _ => 1,
+        };
         let job = work.job();
         for _ in 0..pieces {
             job.step();

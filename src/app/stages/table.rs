@@ -1,4 +1,4 @@
-//! Table II twice: the paper's, and the simulated one; and every estimate behind both.
+//! Table II three times: the paper's, and simulated with two kinds of contact; and every estimate behind them.
 
 mod estimates;
 
@@ -6,6 +6,7 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::paint::Picture;
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use centrode_core::scenario::ContactKind;
 use centrode_core::study::table2::{Disk, Row, Spread, Table2};
 use egui::{Align, Label, Rect, ScrollArea, Sense, Ui, vec2};
 
@@ -52,49 +53,80 @@ const COLUMNS: [Column; 6] = [
     },
 ];
 
-/// Shows both tables, and the estimates of `rows` (the simulated experiments) against the truth.
-pub fn table(ui: &mut Ui, rect: Rect, (shown, rows, version): (&Table2, &[Row], u64), kept: &mut Option<Picture<u64>>) {
+/// Shows all tables, and the estimates of `rows` (the experiments with either kind of contact) against the truth.
+pub fn table(
+    ui: &mut Ui,
+    rect: Rect,
+    (shown, rows, version): (&Table2, [&[Row]; 2], u64),
+    kept: &mut Option<Picture<u64>>,
+) {
     let theme = Theme::of(ui);
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(rect).id_salt("table"));
     ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
         let paper = ("The paper's experiment", "Means and standard deviations of the rows it prints", &shown.paper);
-        let ours = (
-            "Simulated by Centrode",
-            "This scenario, with contact as in the presets disk-1, bench and disk-3",
-            &shown.simulated,
-        );
-        if rect.width() > BESIDE {
+        let [ours, others] = [(shown.kind, &shown.simulated), (shown.other_kind, &shown.other)].map(|(kind, disks)| {
+            let (title, below) = words(kind);
+            (title, below, disks)
+        });
+        let said = "± is the standard deviation over repeats. Contacts are those of the presets disk-1, bench and disk-3. The paper does \
+            not say when contact began nor in how many repeats it was missed: each of its rows counts as found.";
+        let said = |width: f32| {
+            let mut said = job(said, 12.0, theme.dim);
+            said.wrap.max_width = width;
+            said
+        };
+        let wide = rect.width() > BESIDE;
+        if wide {
             ui.horizontal_top(|ui| {
                 let width = 0.5 * (ui.available_width() - 40.0);
-                for (k, part) in [paper, ours].into_iter().enumerate() {
-                    ui.allocate_ui_with_layout(vec2(width, 0.0), egui::Layout::top_down(Align::Min), |ui| {
-                        block(ui, part, width, &theme);
-                    });
-                    if k == 0 {
-                        ui.add_space(32.0);
-                    }
-                }
+                let column = |ui: &mut Ui, show: &dyn Fn(&mut Ui)| {
+                    ui.allocate_ui_with_layout(vec2(width, 0.0), egui::Layout::top_down(Align::Min), |ui| show(ui));
+                };
+                column(ui, &|ui| {
+                    block(ui, paper, width, &theme);
+                    ui.add_space(14.0);
+                    ui.add(Label::new(said(width)).wrap());
+                });
+                ui.add_space(32.0);
+                column(ui, &|ui| {
+                    block(ui, ours, width, &theme);
+                    ui.add_space(14.0);
+                    block(ui, others, width, &theme);
+                });
             });
         } else {
-            for part in [paper, ours] {
+            for part in [paper, ours, others] {
                 block(ui, part, ui.available_width(), &theme);
                 ui.add_space(14.0);
             }
         }
         ui.add_space(16.0);
-        let said = "± is the standard deviation over repeats. The paper does not say when contact began nor in how many repeats it \
-            was missed: each of its rows counts as found. The simulation holds the part below the beam still; the real segment buckled.";
-        let mut said = job(said, 12.0, theme.dim);
-        said.wrap.max_width = ui.available_width();
+        let below = (!wide).then(|| said(ui.available_width()));
+        let words = below.clone().map_or(0.0, |said| ui.painter().layout_job(said).size().y + 8.0);
         // The picture has what the words leave.
-        let used = ui.cursor().top() - ui.min_rect().top() + ui.painter().layout_job(said.clone()).size().y + 16.0;
+        let used = ui.cursor().top() - ui.min_rect().top() + words + 8.0;
         let height = (rect.height() - used).max(estimates::LEAST);
         let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
         estimates::estimates(ui, place, (shown, rows, version), kept);
-        ui.add_space(8.0);
-        ui.add(Label::new(said).wrap());
+        if let Some(said) = below {
+            ui.add_space(8.0);
+            ui.add(Label::new(said).wrap());
+        }
     });
+}
+
+/// Title of a simulated table, and what its kind of contact does.
+fn words(kind: ContactKind) -> (&'static str, &'static str) {
+    match kind {
+        ContactKind::Clamp => {
+            ("Simulated: a beam that clamps", "What is below the beam keeps its shape, as the paper takes it")
+        }
+        ContactKind::Plane => ("Simulated: a flat beam that touches", "What is below the beam goes on changing shape"),
+        ContactKind::Cylinder => {
+            ("Simulated: a round beam that touches", "The backbone slides along it and changes shape below")
+        }
+    }
 }
 
 fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f32, theme: &Theme) {

@@ -81,17 +81,70 @@ struct Piece {
     contact: [[f64; POINTS]; 2],
 }
 
+impl Piece {
+    /// Cubics through two shapes and their derivatives.
+    fn between(basis: &Basis, from: &Touching, to: &Touching) -> Self {
+        let (middle, half) = (0.5 * (from.bend + to.bend), 0.5 * (to.bend - from.bend).abs());
+        let (low, high) = if from.bend < to.bend { (from, to) } else { (to, from) };
+        // Value and derivative of each quantity, at both ends.
+        let ends = [low, high].map(|touching| {
+            let (tip, by) = touching.tip(basis);
+            let contact = [(touching.slope(), touching.by_bend.coefficients[0])];
+            let place = [(touching.at.place, touching.by_bend.place)];
+            [[(tip.x, by.x)], [(tip.y, by.y)], contact, place].map(|[pair]| pair)
+        });
+        let cubic = |quantity: usize| {
+            let [(a, da), (b, db)] = ends.each_ref().map(|end| end[quantity]);
+            let (da, db) = (da * half, db * half);
+            // The Hermite cubic on [−1, 1] as a Chebyshev series.
+            let (sum, difference) = (0.5 * (a + b), 0.5 * (b - a));
+            let mut series = [0.0; POINTS];
+            series[0] = sum - (db - da) / 8.0;
+            series[1] = difference + (2.0 * difference - da - db) / 16.0;
+            series[2] = (db - da) / 8.0;
+            series[3] = (da + db - 2.0 * difference) / 16.0;
+            series
+        };
+        let [x, z, slope, place] = std::array::from_fn(cubic);
+        Self { middle, half, tip: [x, z, slopes(&x, half), slopes(&z, half)], contact: [slope, place] }
+    }
+}
+
+/// The derivative of a cubic Chebyshev series over an interval of half this width.
+fn slopes(series: &[f64; POINTS], half: f64) -> [f64; POINTS] {
+    let mut by = [0.0; POINTS];
+    by[0] = (series[1] + 3.0 * series[3]) / half;
+    by[1] = 4.0 * series[2] / half;
+    by[2] = 6.0 * series[3] / half;
+    by
+}
+
 impl Branch {
     /// Follows a contact from where it was met to the bend `last` (rad), which lies on its side.
     #[must_use]
     pub fn new(meeting: Meeting, surface: Surface, last: f64) -> Self {
-        let basis = Basis::new();
-        let mut branch = Self { basis, meeting, surface, anchors: Vec::new(), pieces: Vec::new(), ending: None };
-        branch.follow(last);
+        let mut branch = Self::followed(meeting, surface, last);
         if let (Some(first), Some(end)) = (branch.anchors.first(), branch.anchors.last()) {
             let (from, to) = (first.bend, end.bend);
             branch.fit(from, to);
         }
+        branch
+    }
+
+    /// The same at a tenth of the price, for a map of many contacts: cubics between the shapes found on the way, which are
+    /// right to 1e-6 L.
+    #[must_use]
+    pub fn sketched(meeting: Meeting, surface: Surface, last: f64) -> Self {
+        let mut branch = Self::followed(meeting, surface, last);
+        branch.pieces =
+            branch.anchors.windows(2).map(|ends| Piece::between(&branch.basis, &ends[0], &ends[1])).collect();
+        branch
+    }
+
+    fn followed(meeting: Meeting, surface: Surface, last: f64) -> Self {
+        let basis = Basis::new();
+        let mut branch = Self { basis, meeting, surface, anchors: Vec::new(), pieces: Vec::new(), ending: None };
+        branch.follow(last);
         branch
     }
 

@@ -146,6 +146,26 @@ fn a_branch_goes_through_every_bend_and_its_polynomials_are_exact() {
 }
 
 #[test]
+fn a_sketched_branch_is_right_to_what_a_map_shows() {
+    for (meeting, surface) in all() {
+        let last = meeting.bend + meeting.side * 1.2;
+        let [exact, sketched] = [Branch::new, Branch::sketched].map(|follow| follow(meeting, surface, last));
+        assert_eq!(sketched.ending(), exact.ending());
+        for k in 1..60 {
+            let bend = meeting.bend + (last - meeting.bend) * f64::from(k) / 60.0;
+            if !exact.holds_at(bend) {
+                continue;
+            }
+            let (a, b) = (exact.tip(bend), sketched.tip(bend));
+            let what = format!("{meeting:?} {surface:?} at {bend}");
+            assert!((a.position - b.position).norm() < 1e-6, "{what}: {a:?} {b:?}");
+            assert!((a.by_bend - b.by_bend).norm() < 1e-4, "{what}: {a:?} {b:?}");
+            assert!((exact.above(bend).0 - sketched.above(bend).0).abs() < 1e-5, "{what}");
+        }
+    }
+}
+
+#[test]
 fn bend_and_what_is_held_are_kept_and_the_force_pushes() {
     for (meeting, surface) in all() {
         let (branch, shapes) = along(&meeting, surface, PI);

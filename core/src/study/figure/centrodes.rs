@@ -8,7 +8,7 @@ use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Configuration, Rate, Vec3};
 use crate::plant::Shape;
 use crate::record::held_still;
-use crate::scenario::{Plan, ScenarioError, motion::command};
+use crate::scenario::{Contact, ContactKind, Plan, Scenario, ScenarioError, motion::command};
 
 /// Marks of a locus over the whole motion.
 const MARKS: usize = 31;
@@ -17,17 +17,37 @@ const BACKBONES: usize = 5;
 /// Points of a backbone.
 const POINTS: usize = 61;
 
-/// Loci and backbones in the bending plane: the backbones, then the marks of one locus, then those of the other.
+/// Loci and backbones in the bending plane, for the plan's kind of contact and beside it for another.
 #[derive(Debug)]
 pub struct Centrodes {
-    plan: Plan,
-    free: Plan,
-    series: Vec<Series>,
+    sides: Vec<Side>,
 }
 
 impl Centrodes {
     /// Of a plan's motion and beam.
     pub fn new(plan: Plan) -> Result<Self, ScenarioError> {
+        let mut sides = vec![Side::new(plan.clone())?];
+        if plan.contact().is_some() {
+            let contact = Contact { kind: plan.scenario().contact.kind.other(), ..plan.scenario().contact };
+            sides.push(Side::new(Plan::new(&Scenario { contact, ..plan.scenario().clone() })?)?);
+        }
+        Ok(Self { sides })
+    }
+}
+
+/// One kind of contact: the backbones, then the marks of one locus, then those of the other.
+#[derive(Debug)]
+struct Side {
+    plan: Plan,
+    free: Plan,
+    series: Vec<Series>,
+}
+
+/// Pieces of work in a side.
+const PIECES: usize = 3;
+
+impl Side {
+    fn new(plan: Plan) -> Result<Self, ScenarioError> {
         Ok(Self { free: without_contact(&plan)?, plan, series: Vec::new() })
     }
 
@@ -91,11 +111,7 @@ fn in_plane(configuration: &Configuration, point: &Vec3) -> [f64; 2] {
     [c * point.x - s * point.y, point.z]
 }
 
-impl Content for Centrodes {
-    fn pieces(&self) -> usize {
-        3
-    }
-
+impl Side {
     fn piece(&mut self, k: usize) {
         match k {
             0 => self.series.extend(self.backbones()),
@@ -115,22 +131,45 @@ impl Content for Centrodes {
         }
     }
 
-    fn chart(&self) -> Chart {
-        let scenario = self.plan.scenario();
+    fn panel(&self) -> Panel {
         let axis = |name| Axis::new(name, "m", "mm", MILLI);
-        let panel = Panel {
+        let title = match (self.plan.contact(), self.plan.scenario().contact.kind) {
+            (None, _) => "",
+            (_, ContactKind::Clamp) => "A beam that clamps",
+            (_, ContactKind::Plane) => "A flat beam that touches",
+            (_, ContactKind::Cylinder) => "A round beam that touches",
+        };
+        Panel {
+            title: title.into(),
             equal_scales: true,
             series: self.series.clone(),
             ..Panel::new(axis("across the base"), axis("along the straight backbone"))
-        };
+        }
+    }
+}
+
+impl Content for Centrodes {
+    fn pieces(&self) -> usize {
+        PIECES * self.sides.len()
+    }
+
+    fn piece(&mut self, k: usize) {
+        if let Some(side) = self.sides.get_mut(k / PIECES) {
+            side.piece(k % PIECES);
+        }
+    }
+
+    fn chart(&self) -> Chart {
+        let plan = &self.sides[0].plan;
+        let scenario = plan.scenario();
         Chart {
             title: String::new(),
-            panels: vec![panel],
+            panels: self.sides.iter().map(Side::panel).collect(),
             caption: words::caption(&[
                 "in the bending plane, marks at equal steps of θ_L".into(),
                 words::robot(scenario),
                 words::motion(scenario),
-                words::contact(&self.plan),
+                words::contact(plan),
             ]),
         }
     }

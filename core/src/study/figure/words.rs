@@ -5,7 +5,7 @@ use crate::chart::ticks::Steps;
 use crate::model::Segment;
 use crate::model::configuration::theta_l_from_bend;
 use crate::scenario::text::number;
-use crate::scenario::{CellErrors, Place, Start, Xi1Rule};
+use crate::scenario::{CellErrors, ContactKind, Place, Start, Xi1Rule};
 use crate::scenario::{Plan, Scenario};
 
 /// Time.
@@ -72,9 +72,14 @@ pub fn contact(plan: &Plan) -> String {
         Place::Disk(disk) => format!("on disk {disk}, s_c = {}", millimetres(contact.arc_length)),
         _ => format!("at s_c = {}", millimetres(contact.arc_length)),
     };
+    let with = match scenario.contact.kind {
+        ContactKind::Clamp => String::new(),
+        ContactKind::Plane => ", of a flat beam that only touches".into(),
+        ContactKind::Cylinder => format!(", of a round beam with ρ = {}", millimetres(scenario.contact.rounding)),
+    };
     match scenario.contact.start {
-        Start::Time(time) => format!("contact {place}, at {} s", plain(time)),
-        Start::Bend(bend) => format!("contact {place}, at θ_L = {}", degrees(theta_l_from_bend(bend))),
+        Start::Time(time) => format!("contact {place}, at {} s{with}", plain(time)),
+        Start::Bend(bend) => format!("contact {place}, at θ_L = {}{with}", degrees(theta_l_from_bend(bend))),
     }
 }
 

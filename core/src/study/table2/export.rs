@@ -2,6 +2,7 @@
 
 use super::{Disk, Spread, Table2};
 use crate::chart::csv::{cell, line};
+use crate::scenario::ContactKind;
 use std::fmt::Write;
 
 const DEGREES: f64 = 180.0 / std::f64::consts::PI;
@@ -65,7 +66,7 @@ pub const QUANTITIES: [Quantity; 4] = [
     },
 ];
 
-/// Both tables as CSV, a disk to a row, units in the header.
+/// All tables as CSV, a disk to a row, units in the header.
 #[must_use]
 pub fn csv(table: &Table2) -> String {
     let fixed = [
@@ -82,7 +83,9 @@ pub fn csv(table: &Table2) -> String {
         ["mean", "deviation"].map(|kind| format!("{}_{kind} [{}]", quantity.key, quantity.si_unit))
     });
     let mut text = line(fixed.into_iter().map(String::from).chain(titles));
-    for (name, disks) in [("paper", &table.paper), ("simulated", &table.simulated)] {
+    for (name, disks) in
+        [("paper", &table.paper), ("simulated", &table.simulated), (table.other_kind.name(), &table.other)]
+    {
         for disk in disks {
             let fixed = [
                 name.into(),
@@ -102,7 +105,7 @@ pub fn csv(table: &Table2) -> String {
     text
 }
 
-/// Both tables as a plain `tabular` that needs no package, units in the head. `made` says what made it, in comments above.
+/// All tables as a plain `tabular` that needs no package, units in the head. `made` says what made it, in comments above.
 ///
 /// ```
 /// use centrode_core::scenario::Scenario;
@@ -129,10 +132,16 @@ pub fn latex(table: &Table2, made: &str) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(text, "\\begin{{tabular}}{{l{}}}\n\\hline", "r".repeat(heads.len()));
     let _ = writeln!(text, "{} & Bias (mm) \\\\\n\\hline", heads.join(" & "));
-    for (name, disks) in [("Paper", &table.paper), ("Simulated by Centrode", &table.simulated)] {
+    let simulated = |kind: ContactKind| format!("Simulated by Centrode, {}", kind.name());
+    let sets = [
+        ("Paper".into(), &table.paper),
+        (simulated(table.kind), &table.simulated),
+        (simulated(table.other_kind), &table.other),
+    ];
+    for (name, disks) in sets {
         for (k, disk) in disks.iter().enumerate() {
             let fixed = [
-                escaped(if k == 0 { name } else { "" }),
+                escaped(if k == 0 { &name } else { "" }),
                 disk.disk.to_string(),
                 math(disk.arc_length * 1e3, 2),
                 math(disk.contact_time, 3),
@@ -201,7 +210,7 @@ mod tests {
         let text = latex(&table(2), "one\ntwo");
         assert!(text.starts_with("% one\n% two\n% Mean"), "{text}");
         let rows: Vec<&str> = text.lines().filter(|line| line.ends_with("\\\\")).collect();
-        assert_eq!(rows.len(), 1 + 6);
+        assert_eq!(rows.len(), 1 + 9);
         assert!(rows.iter().all(|row| row.matches('&').count() == rows[0].matches('&').count()), "{text}");
         let columns = text.lines().find_map(|line| line.strip_prefix("\\begin{tabular}{")).expect("a tabular");
         assert_eq!(columns.trim_end_matches('}').len(), rows[0].matches('&').count() + 1);
@@ -224,9 +233,13 @@ mod tests {
     #[test]
     fn csv_has_a_row_for_each_disk() {
         let text = csv(&table(2));
-        assert_eq!(text.lines().count(), 1 + 6);
+        assert_eq!(text.lines().count(), 1 + 9);
         let width = |line: &str| line.split(',').count();
         assert!(text.lines().all(|line| width(line) == 8 + 2 * QUANTITIES.len()), "{text}");
-        assert!(text.starts_with("table,disk,arc_length [m],") && text.contains("\nsimulated,3,"));
+        assert!(
+            text.starts_with("table,disk,arc_length [m],")
+                && text.contains("\nsimulated,3,")
+                && text.contains("\nplane,3,")
+        );
     }
 }

@@ -20,7 +20,7 @@ const REACH: f32 = 9.0;
 pub fn estimates(
     ui: &mut Ui,
     rect: Rect,
-    (shown, rows, version): (&Table2, &[Row], u64),
+    (shown, rows, version): (&Table2, [&[Row]; 2], u64),
     kept: &mut Option<Picture<u64>>,
 ) {
     let theme = Theme::of(ui);
@@ -32,16 +32,16 @@ pub fn estimates(
     let Some(place) = places.first() else { return };
     let response = ui.interact(place.data(), ui.make_persistent_id("estimates"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, described(shown, all.len())));
-    read(&painter, response, place, &all, &theme);
+    read(&painter, response, place, (shown, &all), &theme);
 }
 
 /// Names the nearest mark under the pointer.
-fn read(painter: &Painter, response: Response, place: &Place, all: &[Estimate], theme: &Theme) {
+fn read(painter: &Painter, response: Response, place: &Place, (shown, all): (&Table2, &[Estimate]), theme: &Theme) {
     let Some(pointer) = response.hover_pos() else { return };
     let near = all.iter().map(|estimate| (place.at(estimate.at).distance(pointer), estimate));
     let Some((_, estimate)) = near.filter(|(away, _)| *away < REACH).min_by(|a, b| a.0.total_cmp(&b.0)) else { return };
     painter.circle_stroke(place.at(estimate.at), 7.0, Stroke::new(1.5, theme.ink));
-    let who = if estimate.of_paper { "paper" } else { "simulated" };
+    let who = estimate.source.name(shown);
     let mm = number(estimate.at[0] * 1e3, 1);
     response.on_hover_text_at_pointer(format!("Disk {}, {who}, run {}: {mm} mm", estimate.disk, estimate.place));
 }
@@ -49,9 +49,11 @@ fn read(painter: &Painter, response: Response, place: &Place, all: &[Estimate], 
 /// The picture in words.
 fn described(shown: &Table2, marks: usize) -> String {
     let mean = |disk: &Disk| number(disk.location.mean * 1e3, 1);
-    let disks = shown.paper.iter().zip(&shown.simulated).map(|(paper, simulated)| {
+    let disks = shown.paper.iter().zip(&shown.simulated).zip(&shown.other).map(|((paper, simulated), other)| {
         let truth = number(simulated.arc_length * 1e3, 1);
-        format!("disk {} at {truth} mm: paper {}, simulated {}", simulated.disk, mean(paper), mean(simulated))
+        let [own, flat] = [shown.kind, shown.other_kind].map(|kind| kind.name());
+        let means = [paper, simulated, other].map(mean);
+        format!("disk {} at {truth} mm: paper {}, {own} {}, {flat} {}", simulated.disk, means[0], means[1], means[2])
     });
     let disks: Vec<String> = disks.collect();
     format!("Estimated places of contact, {marks} marks; means in mm: {}", disks.join("; "))
