@@ -17,6 +17,11 @@ fn the_page_on_logs_shows_what_the_command_prints() {
     compare(include_str!("../../docs/LOGS.md"), 8);
 }
 
+#[test]
+fn the_page_on_touch_shows_what_the_command_prints() {
+    compare(include_str!("../../docs/TOUCH.md"), 40);
+}
+
 /// Runs every command of a document and looks for its lines; there are more than `least`.
 fn compare(page: &str, least: usize) {
     let mut shown = 0;

@@ -47,4 +47,5 @@ mod shaders;
 mod study_command;
 mod support;
 mod table2;
+mod touch;
 mod tuning;
