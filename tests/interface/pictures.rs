@@ -65,6 +65,21 @@ fn robot_on_a_small_desk() {
 }
 
 #[test]
+fn against_a_plane() {
+    let mut page = page(DESK, Dark, 7.0);
+    click(&mut page, "Plane");
+    compare(&mut page, "robot-plane-desk-dark");
+}
+
+#[test]
+fn against_a_cylinder() {
+    let mut page = page(DESK, Light, 7.0);
+    click(&mut page, "Cylinder");
+    click(&mut page, "Compare with a clamp");
+    compare(&mut page, "robot-cylinder-desk-light");
+}
+
+#[test]
 fn phone() {
     let mut page = page(PHONE, Dark, 6.6);
     compare(&mut page, "robot-detected-phone-dark");

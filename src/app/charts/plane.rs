@@ -9,13 +9,14 @@ use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use crate::show::obstacle;
 use crate::show::track::{Trace, standing};
 use centrode_core::detect::Standing;
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
-use paint::{label, place, strip};
-use track::{Loci, Track};
+use paint::{arrow, label, place, strip};
+use track::{Loci, Outline, Track};
 
 /// Least size of the whole view, points.
 const LEAST: Vec2 = vec2(160.0, 120.0);
@@ -31,8 +32,9 @@ const USUAL: f32 = 6.5;
 /// A mark can be pointed at from this far, points.
 const REACH: f32 = 10.0;
 
-/// Shows the plane at the playback position `cursor` (s) in the space that is left.
-pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<Command>) {
+/// Shows the plane at the playback position `cursor` (s) in the space that is left, with the `frozen` shape of the paper's model if
+/// that is wished.
+pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool), out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let space = ui.available_size();
     let height = if space.y.is_finite() { space.y } else { 0.95 * space.x };
@@ -45,7 +47,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     let loci = track.loci(cursor);
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
     painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
-    let entries = entries(run, &theme);
+    let entries = entries(run, &theme, frozen);
     // The data is about as wide as high: what a low view has to spare is at its side.
     let aside = area.width() > 1.15 * area.height();
     let mut data = Rect::from_min_max(
@@ -66,7 +68,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     }
     let axes = Axes::fit(track.bounds(&loci), data);
     let size = (axes.scale / USUAL).clamp(0.6, 1.0);
-    let view = View { run, track, theme, cursor, axes, data, loci, size };
+    let view = View { run, track, theme, cursor, frozen, axes, data, loci, size };
 
     let response = ui.interact(data, ui.scope_id().with("bending plane"), Sense::CLICK);
     let deviation = run.sample_at(cursor).judgement.deviation * 1e3;
@@ -79,6 +81,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     view.robot(&clipped);
     view.marks(&clipped);
     view.now(&clipped);
+    view.force(&clipped);
     view.estimate(&clipped);
     if let Some((mark, name, color, at)) = response.hover_pos().and_then(|pos| view.near(pos)) {
         ui.set_cursor_icon(CursorIcon::PointingHand);
@@ -96,7 +99,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
 }
 
 /// What the legend names: all that the run will show, so that it does not move during playback.
-fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
+fn entries(run: &Run, theme: &Theme, frozen: bool) -> Vec<Entry> {
     let entry = |form, color, text| Entry { form, color, text };
     let mut entries = vec![
         entry(Form::Triangle, theme.model, "c_m model"),
@@ -106,6 +109,9 @@ fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
     if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
+        if frozen && obstacle::only_touches(run) {
+            entries.push(entry(Form::Ghost, theme.constrained, "if clamped"));
+        }
     }
     if run.plan.contact().is_some() {
         entries.push(entry(Form::Beam, theme.obstacle, "beam"));
@@ -156,6 +162,7 @@ struct View<'a> {
     track: Track<'a>,
     theme: Theme,
     cursor: f64,
+    frozen: bool,
     axes: Axes,
     data: Rect,
     loci: Loci,
@@ -189,14 +196,21 @@ impl View<'_> {
     /// The beam, the true robot, and its ghost.
     fn robot(&self, painter: &Painter) {
         let theme = &self.theme;
-        if let Some(beam) = self.track.beam() {
-            let at = self.axes.at(beam.center);
-            let radius = beam.radius as f32 * self.axes.scale;
-            painter.circle(at, radius, theme.obstacle, Stroke::new(1.5, theme.ink.gamma_multiply(0.5)));
+        let edge = Stroke::new(1.5, theme.ink.gamma_multiply(0.5));
+        for piece in self.track.beam() {
+            match piece {
+                Outline::Round(center, radius) => {
+                    painter.circle(self.axes.at(center), radius as f32 * self.axes.scale, theme.obstacle, edge);
+                }
+                Outline::Bar(corners) => {
+                    painter.add(Shape::convex_polygon(self.line(&corners), theme.obstacle, edge));
+                }
+            }
         }
-        if let Some(ghost) = self.track.ghost(self.cursor) {
-            let color = theme.model.gamma_multiply(0.75);
-            painter.extend(Shape::dashed_line(&self.line(&ghost), Stroke::new(1.6, color), 5.0, 4.0));
+        let frozen = if self.frozen { self.track.frozen(self.cursor) } else { None };
+        for (ghost, color) in [(self.track.ghost(self.cursor), theme.model), (frozen, theme.constrained)] {
+            let stroke = Stroke::new(1.6, color.gamma_multiply(0.75));
+            painter.extend(Shape::dashed_line(&self.line(&ghost.unwrap_or_default()), stroke, 5.0, 4.0));
         }
         let robot = self.track.robot(&self.track.truth(self.cursor));
         let sides = robot.sides.each_ref().map(|side| self.line(side));
@@ -286,11 +300,25 @@ impl View<'_> {
         in_the_way.extend(self.line(&robot.backbone));
         in_the_way.extend(robot.disks.iter().flatten().map(|&at| self.axes.at(at)));
         in_the_way.extend((0..=8).map(|k| ends[0] + (ends[1] - ends[0]) * (k as f32 / 8.0)));
-        if let Some(beam) = self.track.beam() {
-            in_the_way.push(self.axes.at(beam.center));
+        if let Some(Outline::Round(center, _)) = self.track.beam().first() {
+            in_the_way.push(self.axes.at(*center));
         }
         let size = galley.size() + vec2(10.0, 4.0);
         label(painter, place(middle, size, self.data.shrink(2.0), &in_the_way), galley, color, &self.theme);
+    }
+
+    /// The force of a beam that only touches, with its size beside its tail.
+    fn force(&self, painter: &Painter) {
+        let Some(force) = self.track.force(&self.track.truth(self.cursor)) else { return };
+        let [tail, head] = force.arrow.map(|at| self.axes.at(at));
+        arrow(painter, [tail, head], Stroke::new(2.4, self.theme.force));
+        let galley = painter.layout_job(job(&force.words, TEXT - 1.0, self.theme.ink));
+        let robot = self.track.robot(&self.track.truth(self.cursor));
+        let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
+        in_the_way.extend(robot.disks.iter().flatten().map(|&at| self.axes.at(at)));
+        in_the_way.extend((0..=8).map(|k| tail + (head - tail) * (k as f32 / 8.0)));
+        let rect = place(tail, galley.size() + vec2(10.0, 4.0), self.data.shrink(2.0), &in_the_way);
+        label(painter, rect, galley, self.theme.force, &self.theme);
     }
 
     /// After the detection: the estimated place of the contact on the backbone, against the true one.
