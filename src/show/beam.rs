@@ -50,7 +50,7 @@ impl Beam<'_> {
         };
         let across = self.frame() * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
         let (center, rod) = (self.obstacle.bar.0, self.obstacle.bar.1 as f32);
-        // Behind a plate or between jaws the bar begins at their middle.
+        // What is fixed to the bar hides its front end.
         let front = if self.obstacle.fittings.is_empty() { BAR[0] } else { -0.8 * FITTING };
         for piece in self.obstacle.pieces() {
             scene.blocks.push(match piece {

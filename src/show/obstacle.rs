@@ -47,6 +47,8 @@ pub struct Obstacle {
 
 /// Half the width of a plate along the backbone, in radii of a disk: more would reach into a segment that bends over it.
 const PLATE: f64 = 0.55;
+/// Radius of an arm that bears jaws or a plate, as part of a round beam's usual one.
+const ARM: f64 = 0.7;
 
 impl Obstacle {
     /// The beam of a run, when there is one.
@@ -62,29 +64,25 @@ impl Obstacle {
         let along = Planar::new(-toward.y, toward.x);
         let (surface, beam) = (f64::from(sizes.surface(contact.arc_length)), f64::from(sizes.beam));
         let away = |distance: f64| touches + toward * distance;
+        let arm = |distance: f64| (away(surface + distance), ARM * beam);
         let (bar, fittings) = match contact.touch.as_deref().map(Branch::surface) {
             None => {
                 // The jaws hold the rim between them, clear of the backbones.
                 let [gap, thick] = [0.52, 1.1].map(|share| share * f64::from(sizes.thickness()));
-                let grip = 0.8 * f64::from(sizes.rim(contact.arc_length));
-                let [near, far] = [surface - grip, surface + beam];
+                let (near, far) = (-0.8 * f64::from(sizes.rim(contact.arc_length)), 1.8 * beam);
                 let jaw = |end: f64| Piece::Bar {
-                    center: away(0.5 * (near + far)) + along * (end * (gap + 0.5 * thick)),
+                    center: away(surface + 0.5 * (near + far)) + along * (end * (gap + 0.5 * thick)),
                     half: [0.5 * (far - near), 0.5 * thick],
                 };
-                ((away(surface + beam), beam), vec![jaw(-1.0), jaw(1.0)])
+                (arm(far), vec![jaw(-1.0), jaw(1.0)])
             }
             Some(Surface::Plane) => {
-                let thick = 0.5 * beam;
-                let plate = Piece::Bar {
-                    center: away(surface + 0.5 * thick),
-                    half: [0.5 * thick, PLATE * f64::from(sizes.disk)],
-                };
-                ((away(surface + thick + 0.8 * beam), beam), vec![plate])
+                let half = [0.25 * beam, PLATE * f64::from(sizes.disk)];
+                (arm((0.4 + ARM) * beam), vec![Piece::Bar { center: away(surface + half[0]), half }])
             }
             Some(Surface::Cylinder { rounding }) => {
-                let distance = rounding * length;
-                ((away(distance), distance - envelope(contact, sizes, length)), Vec::new())
+                let reach = rounding * length;
+                ((away(reach), reach - envelope(contact, sizes, length)), Vec::new())
             }
         };
         Some(Self { touches, slope, side: contact.side, bar, fittings })
@@ -105,11 +103,12 @@ impl Obstacle {
     }
 }
 
-/// Radius of the robot's envelope at a contact, m: its side, or where a round beam's rounding is not larger than that, half the rounding.
+/// Distance from the backbone at which beam and robot touch, m. It is the robot's side; a round beam whose rounding leaves it no room
+/// beyond that is drawn as thin as a backbone.
 fn envelope(contact: &PlannedContact, sizes: &Proportions, length: f64) -> f64 {
     let side = f64::from(sizes.surface(contact.arc_length));
     match contact.touch.as_deref().map(Branch::surface) {
-        Some(Surface::Cylinder { rounding }) if rounding * length <= side => 0.5 * rounding * length,
+        Some(Surface::Cylinder { rounding }) => side.min(rounding * length - f64::from(sizes.thin())),
         _ => side,
     }
 }

@@ -58,6 +58,11 @@ impl Proportions {
         self.surface(s) - self.pitch - self.secondary
     }
 
+    /// Radius of the thinnest bodies: the backbones.
+    pub fn thin(&self) -> f32 {
+        self.secondary
+    }
+
     /// Thickness of a spacer disk.
     pub fn thickness(&self) -> f32 {
         0.17 * self.disk

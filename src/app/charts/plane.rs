@@ -4,7 +4,7 @@ mod flat;
 mod paint;
 mod track;
 
-use crate::app::charts::legend::{Entry, Form, ROW, legend, mark};
+use crate::app::charts::legend::{Entry, Form, ROW, arrow, legend, mark};
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
@@ -15,7 +15,7 @@ use centrode_core::detect::Standing;
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
-use paint::{arrow, label, place, strip};
+use paint::{label, place, strip};
 use track::{Loci, Outline, Track};
 
 /// Least size of the whole view, points.
@@ -80,8 +80,8 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool
     let clipped = painter.with_clip_rect(data.intersect(painter.clip_rect()));
     view.robot(&clipped);
     view.marks(&clipped);
-    view.now(&clipped);
     view.force(&clipped);
+    view.now(&clipped);
     view.estimate(&clipped);
     if let Some((mark, name, color, at)) = response.hover_pos().and_then(|pos| view.near(pos)) {
         ui.set_cursor_icon(CursorIcon::PointingHand);
@@ -109,8 +109,9 @@ fn entries(run: &Run, theme: &Theme, frozen: bool) -> Vec<Entry> {
     if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
-        if frozen && obstacle::only_touches(run) {
-            entries.push(entry(Form::Ghost, theme.constrained, "if clamped"));
+        if obstacle::only_touches(run) {
+            entries.extend(frozen.then(|| entry(Form::Ghost, theme.constrained, "if clamped")));
+            entries.push(entry(Form::Arrow, theme.force, "contact force"));
         }
     }
     if run.plan.contact().is_some() {
@@ -280,7 +281,8 @@ impl View<'_> {
             let color = if over { theme.detection } else { theme.sensor };
             let ends = [self.axes.at(model), self.axes.at(sensor)];
             painter.line_segment(ends, Stroke::new(2.0, color));
-            self.deviation(painter, ends, sample.judgement.deviation * 1e3, color);
+            let text = format!("{} mm", number(sample.judgement.deviation * 1e3, 2));
+            self.value(painter, ends[0] + 0.5 * (ends[1] - ends[0]), ends, &text, color);
         }
         if let Some(model) = model {
             mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
@@ -291,34 +293,33 @@ impl View<'_> {
         }
     }
 
-    fn deviation(&self, painter: &Painter, ends: [Pos2; 2], value: f64, color: Color32) {
-        let text = format!("{} mm", number(value, 2));
-        let galley = painter.layout_job(job(&text, TEXT - 1.0, self.theme.ink));
-        let middle = self.data.shrink(8.0).clamp(ends[0] + 0.5 * (ends[1] - ends[0]));
+    /// A value beside `at`, clear of what is drawn and of the line that it belongs to.
+    fn value(&self, painter: &Painter, at: Pos2, ends: [Pos2; 2], text: &str, color: Color32) {
+        let galley = painter.layout_job(job(text, TEXT - 1.0, self.theme.ink));
+        let along = |[a, b]: [Pos2; 2]| (0_u8..=8).map(move |k| a + (b - a) * (f32::from(k) / 8.0));
         let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
-        let robot = self.track.robot(&self.track.truth(self.cursor));
+        let shape = self.track.truth(self.cursor);
+        let robot = self.track.robot(&shape);
         in_the_way.extend(self.line(&robot.backbone));
         in_the_way.extend(robot.disks.iter().flatten().map(|&at| self.axes.at(at)));
-        in_the_way.extend((0..=8).map(|k| ends[0] + (ends[1] - ends[0]) * (k as f32 / 8.0)));
+        in_the_way.extend(along(ends));
+        if let Some(force) = self.track.force(&shape) {
+            in_the_way.extend(along(force.arrow.map(|at| self.axes.at(at))));
+        }
         if let Some(Outline::Round(center, _)) = self.track.beam().first() {
             in_the_way.push(self.axes.at(*center));
         }
         let size = galley.size() + vec2(10.0, 4.0);
-        label(painter, place(middle, size, self.data.shrink(2.0), &in_the_way), galley, color, &self.theme);
+        let at = self.data.shrink(8.0).clamp(at);
+        label(painter, place(at, size, self.data.shrink(2.0), &in_the_way), galley, color, &self.theme);
     }
 
     /// The force of a beam that only touches, with its size beside its tail.
     fn force(&self, painter: &Painter) {
         let Some(force) = self.track.force(&self.track.truth(self.cursor)) else { return };
-        let [tail, head] = force.arrow.map(|at| self.axes.at(at));
-        arrow(painter, [tail, head], Stroke::new(2.4, self.theme.force));
-        let galley = painter.layout_job(job(&force.words, TEXT - 1.0, self.theme.ink));
-        let robot = self.track.robot(&self.track.truth(self.cursor));
-        let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
-        in_the_way.extend(robot.disks.iter().flatten().map(|&at| self.axes.at(at)));
-        in_the_way.extend((0..=8).map(|k| tail + (head - tail) * (k as f32 / 8.0)));
-        let rect = place(tail, galley.size() + vec2(10.0, 4.0), self.data.shrink(2.0), &in_the_way);
-        label(painter, rect, galley, self.theme.force, &self.theme);
+        let ends = force.arrow.map(|at| self.axes.at(at));
+        arrow(painter, ends, Stroke::new(2.4, self.theme.force));
+        self.value(painter, ends[0], ends, &force.words, self.theme.force);
     }
 
     /// After the detection: the estimated place of the contact on the backbone, against the true one.

@@ -1,8 +1,8 @@
-//! Strips, arrows and labels of the bending plane.
+//! Strips and labels of the bending plane.
 
 use crate::app::theme::Theme;
 use egui::epaint::{Mesh, Vertex, WHITE_UV};
-use egui::{Color32, Galley, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2, vec2};
+use egui::{Color32, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 use std::sync::Arc;
 
 /// Paints a strip between two lines of points.
@@ -17,19 +17,6 @@ pub fn strip(painter: &Painter, sides: [&[Pos2]; 2], color: Color32) {
         }
     }
     painter.add(mesh);
-}
-
-/// Length of an arrow's head and half its width, points.
-const HEAD: Vec2 = vec2(9.0, 4.5);
-
-/// Paints an arrow; one shorter than its head is all head.
-pub fn arrow(painter: &Painter, [tail, head]: [Pos2; 2], stroke: Stroke) {
-    let along = (head - tail).normalized();
-    let size = HEAD * ((head - tail).length() / HEAD.x).min(1.0);
-    let back = head - along * size.x;
-    painter.line_segment([tail, back], stroke);
-    let side = along.rot90() * size.y;
-    painter.add(Shape::convex_polygon(vec![head, back + side, back - side], stroke.color, Stroke::NONE));
 }
 
 /// Puts a label of `size` beside `at`: where it covers fewest of the points in the way, within `bounds`.

@@ -48,8 +48,9 @@ fn entries((run, frozen): (&Run, bool), theme: &Theme, narrow: bool) -> Vec<Entr
     entries.push(entry(Form::Axis, theme.dim, "screw axis"));
     if run.contact_time().is_some() {
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
-        if only_touches(run) && frozen {
-            entries.push(entry(Form::Ghost, theme.constrained, "if clamped"));
+        if only_touches(run) {
+            entries.extend(frozen.then(|| entry(Form::Ghost, theme.constrained, "if clamped")));
+            entries.push(entry(Form::Arrow, theme.force, "contact force"));
         }
     }
     if !narrow {
