@@ -181,3 +181,118 @@ fn normal(slope: f64) -> Planar {
     let (sin, cos) = slope.sin_cos();
     Planar::new(cos, -sin)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::run::simulate;
+    use centrode_core::scenario::{ContactKind, Scenario};
+
+    fn run(kind: ContactKind, change: impl FnOnce(&mut Scenario)) -> (Run, Proportions) {
+        let mut scenario = Scenario::default();
+        scenario.contact.kind = kind;
+        scenario.contact.rounding = 0.006;
+        change(&mut scenario);
+        let run = simulate(&scenario).expect("valid");
+        let sizes = Proportions::of(&run);
+        (run, sizes)
+    }
+
+    /// The forces at times (s) at which the beam holds.
+    fn pushes((run, sizes): &(Run, Proportions)) -> Vec<Push> {
+        let at = |time| Push::of(run, sizes, &run.shape(run.place(time))).expect("it touches");
+        [5.9, 6.4, 7.0, 9.0].map(at).into()
+    }
+
+    #[test]
+    fn a_plates_face_goes_through_where_it_touches() {
+        let touched = run(ContactKind::Plane, |_| ());
+        let obstacle = Obstacle::of(&touched.0, &touched.1).expect("beam");
+        let [Piece::Bar { center, half }] = obstacle.fittings[..] else { panic!("a plate") };
+        let corners = obstacle.corners(center, half);
+        let (face, back) = ([corners[0], corners[3]], [corners[1], corners[2]]);
+        let normal = normal(obstacle.slope);
+        assert!((face[1] - face[0]).dot(&normal).abs() < 1e-12, "its normal is that of the backbone as it was met");
+        assert!((back[0] - face[0]).dot(&normal) > 0.0, "it stands beyond its face");
+        for push in pushes(&touched) {
+            assert!((push.at - face[0]).dot(&normal).abs() < 1e-8, "{push:?}");
+            assert!((push.along + normal).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_rod_stays_where_it_is_and_always_touches() {
+        let touched = run(ContactKind::Cylinder, |_| ());
+        let (center, radius) = Obstacle::of(&touched.0, &touched.1).expect("beam").bar;
+        for push in pushes(&touched) {
+            assert!((push.at - center - push.along * radius).norm() < 1e-8, "{push:?}");
+        }
+    }
+
+    #[test]
+    fn a_thin_rod_can_be_seen_and_stays_where_it_is() {
+        let touched = run(ContactKind::Cylinder, |scenario| scenario.contact.rounding = 0.0);
+        let (center, radius) = Obstacle::of(&touched.0, &touched.1).expect("beam").bar;
+        assert!(radius > 1e-4);
+        for push in pushes(&touched) {
+            assert!((push.at - center - push.along * radius).norm() < 1e-8, "{push:?}");
+        }
+    }
+
+    #[test]
+    fn the_force_opposes_the_bend_and_grows() {
+        for kind in [ContactKind::Plane, ContactKind::Cylinder] {
+            for back in [false, true] {
+                let touched = run(kind, |scenario| {
+                    if back {
+                        scenario.motion.theta_end = 2.0 * scenario.motion.theta_start;
+                    }
+                });
+                let bends = if back { -1.0 } else { 1.0 };
+                let forces = pushes(&touched);
+                assert!(forces.iter().all(|push| push.along.x * bends < 0.0 && push.newtons > 0.0), "{forces:?}");
+                assert!(forces.windows(2).all(|pair| pair[0].newtons < pair[1].newtons));
+                assert!(forces.windows(2).all(|pair| pair[0].share < pair[1].share));
+                assert!((forces[3].share - 1.0).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn after_a_small_bend_the_force_is_that_of_linear_beam_theory() {
+        // The moment is M0 − F(s − x) below the contact and M0 above, its integral EI Δφ, and the contact stays where it is.
+        let touched = run(ContactKind::Plane, |scenario| {
+            scenario.motion.theta_start = 1.5;
+            scenario.motion.theta_end = 1.49;
+        });
+        let (run, sizes) = &touched;
+        let (contact, segment) = (run.plan.contact().expect("beam"), run.plan.segment());
+        let (length, s) = (segment.length, contact.arc_length);
+        let place = run.place(9.0);
+        let turned = run.commanded(place).bend() - contact.bend;
+        let stiffness = segment.ep_ip + 3.0 * segment.es_is;
+        // M0 s²/2 = F s³/3, so M0 = 2 F s/3; and EI Δφ = M0 L − F s²/2.
+        let force = stiffness * turned / (2.0 * s * length / 3.0 - 0.5 * s * s);
+        let push = Push::of(run, sizes, &run.shape(place)).expect("it touches");
+        assert!((push.newtons / force - 1.0).abs() < 0.01, "{} N, {force} N", push.newtons);
+    }
+
+    #[test]
+    fn a_clamp_has_jaws_and_no_force() {
+        let (run, sizes) = run(ContactKind::Clamp, |_| ());
+        let obstacle = Obstacle::of(&run, &sizes).expect("beam");
+        assert_eq!(obstacle.fittings.len(), 2);
+        let place = run.place(7.0);
+        assert_eq!((Push::of(&run, &sizes, &run.shape(place)), frozen(&run, place)), (None, None));
+    }
+
+    #[test]
+    fn only_a_held_shape_has_a_frozen_one() {
+        let (run, _) = run(ContactKind::Plane, |_| ());
+        assert_eq!(frozen(&run, run.place(5.0)), None);
+        let place = run.place(7.0);
+        let (frozen, truth) = (frozen(&run, place).expect("it touches"), run.shape(place));
+        let apart = |s: f64| (frozen.pose(s).position - truth.pose(s).position).norm();
+        assert!(apart(0.010) > 1e-4 && apart(0.030) > 1e-4, "the part below changes its shape");
+    }
+}

@@ -7,6 +7,7 @@ use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paus
 use crate::tuning::tune;
 use egui::Theme::{Dark, Light};
 use egui::{Vec2, vec2};
+use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use egui_kittest::{Harness, SnapshotOptions};
 use egui_wgpu::RendererOptions;
@@ -74,7 +75,9 @@ fn against_a_plane() {
 #[test]
 fn against_a_cylinder() {
     let mut page = page(DESK, Light, 7.0);
+    assert!(page.query_by_label("Compare with a clamp").is_none(), "it is one");
     click(&mut page, "Cylinder");
+    slide(&mut page, "Rounding", 6.0);
     click(&mut page, "Compare with a clamp");
     compare(&mut page, "robot-cylinder-desk-light");
 }

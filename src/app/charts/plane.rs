@@ -80,8 +80,8 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool
     let clipped = painter.with_clip_rect(data.intersect(painter.clip_rect()));
     view.robot(&clipped);
     view.marks(&clipped);
-    view.force(&clipped);
-    view.now(&clipped);
+    let named = view.force(&clipped);
+    view.now(&clipped, named);
     view.estimate(&clipped);
     if let Some((mark, name, color, at)) = response.hover_pos().and_then(|pos| view.near(pos)) {
         ui.set_cursor_icon(CursorIcon::PointingHand);
@@ -266,8 +266,8 @@ impl View<'_> {
         Some((*mark, name, color, self.axes.at(mark.at)))
     }
 
-    /// The centrodes now, and the deviation between model and sensor.
-    fn now(&self, painter: &Painter) {
+    /// The centrodes now, and the deviation between model and sensor; another label may have `taken` a place.
+    fn now(&self, painter: &Painter, taken: Option<Rect>) {
         let theme = &self.theme;
         let sample = self.run.sample_at(self.cursor);
         let (model, sensor) = (self.track.model(&sample), self.track.sensed(&sample));
@@ -282,7 +282,7 @@ impl View<'_> {
             let ends = [self.axes.at(model), self.axes.at(sensor)];
             painter.line_segment(ends, Stroke::new(2.0, color));
             let text = format!("{} mm", number(sample.judgement.deviation * 1e3, 2));
-            self.value(painter, ends[0] + 0.5 * (ends[1] - ends[0]), ends, &text, color);
+            self.value(painter, ends[0] + 0.5 * (ends[1] - ends[0]), ends, (&text, color), taken);
         }
         if let Some(model) = model {
             mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
@@ -293,8 +293,15 @@ impl View<'_> {
         }
     }
 
-    /// A value beside `at`, clear of what is drawn and of the line that it belongs to.
-    fn value(&self, painter: &Painter, at: Pos2, ends: [Pos2; 2], text: &str, color: Color32) {
+    /// A value beside `at`, clear of what is drawn, of the line that it belongs to and of a place that is taken; gives its own.
+    fn value(
+        &self,
+        painter: &Painter,
+        at: Pos2,
+        ends: [Pos2; 2],
+        (text, color): (&str, Color32),
+        taken: Option<Rect>,
+    ) -> Rect {
         let galley = painter.layout_job(job(text, TEXT - 1.0, self.theme.ink));
         let along = |[a, b]: [Pos2; 2]| (0_u8..=8).map(move |k| a + (b - a) * (f32::from(k) / 8.0));
         let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
@@ -309,17 +316,22 @@ impl View<'_> {
         if let Some(Outline::Round(center, _)) = self.track.beam().first() {
             in_the_way.push(self.axes.at(*center));
         }
-        let size = galley.size() + vec2(10.0, 4.0);
+        if let Some(taken) = taken {
+            in_the_way.extend(along([taken.left_top(), taken.right_top()]));
+            in_the_way.extend(along([taken.left_bottom(), taken.right_bottom()]));
+        }
         let at = self.data.shrink(8.0).clamp(at);
-        label(painter, place(at, size, self.data.shrink(2.0), &in_the_way), galley, color, &self.theme);
+        let rect = place(at, galley.size() + vec2(10.0, 4.0), self.data.shrink(2.0), &in_the_way);
+        label(painter, rect, galley, color, &self.theme);
+        rect
     }
 
-    /// The force of a beam that only touches, with its size beside its tail.
-    fn force(&self, painter: &Painter) {
-        let Some(force) = self.track.force(&self.track.truth(self.cursor)) else { return };
+    /// The force of a beam that only touches, with its size beside its tail; gives the place of that.
+    fn force(&self, painter: &Painter) -> Option<Rect> {
+        let force = self.track.force(&self.track.truth(self.cursor))?;
         let ends = force.arrow.map(|at| self.axes.at(at));
         arrow(painter, ends, Stroke::new(2.4, self.theme.force));
-        self.value(painter, ends[0], ends, &force.words, self.theme.force);
+        Some(self.value(painter, ends[0], ends, (&force.words, self.theme.force), None))
     }
 
     /// After the detection: the estimated place of the contact on the backbone, against the true one.
