@@ -47,7 +47,7 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
     robot::robot(&mut scene, palette, &sizes, pose);
     let push = Push::of(run, &sizes, &shape);
     if let (Some(obstacle), Some(contact)) = (Obstacle::of(run, &sizes), run.plan.contact()) {
-        let beam = Beam { obstacle: &obstacle, sizes: &sizes, delta };
+        let beam = Beam { obstacle: &obstacle, sizes: &sizes, delta, let_go: obstacle::let_go(run, place) };
         let surface = f64::from(sizes.surface(contact.arc_length));
         beam.draw(&mut scene, palette, held.then(|| beam.touching(push.as_ref(), surface)));
         if let Some(push) = &push {

@@ -13,6 +13,8 @@ const LARGEST: f32 = 0.4;
 /// Ends of the bar along the bending axis, toward the viewer and away, and where its post stands, in radii of a disk.
 const BAR: [f32; 2] = [-0.75, 3.0];
 const POST: f32 = 2.6;
+/// Opacity once the segment has got away from it.
+const FAINT: f32 = 0.3;
 /// Half the width of what is fixed to the bar, in radii of a disk.
 const FITTING: f32 = 0.6;
 
@@ -24,6 +26,8 @@ pub struct Beam<'a> {
     pub sizes: &'a Proportions,
     /// Direction δ of the bending plane, rad.
     pub delta: f32,
+    /// Whether the segment has got away from it: then it is drawn as faint as something that is in nobody's way.
+    pub let_go: bool,
 }
 
 impl Beam<'_> {
@@ -45,7 +49,7 @@ impl Beam<'_> {
             pose: Pose::new(position, rotation),
             solid,
             bevel: 0.2 * usual,
-            color: palette.stone,
+            color: if self.let_go { palette.stone.alpha(FAINT) } else { palette.stone },
             finish: Finish::Matte,
         };
         let across = self.frame() * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);

@@ -64,7 +64,9 @@ impl Obstacle {
         let along = Planar::new(-toward.y, toward.x);
         let (surface, beam) = (f64::from(sizes.surface(contact.arc_length)), f64::from(sizes.beam));
         let away = |distance: f64| touches + toward * distance;
-        let arm = |distance: f64| (away(surface + distance), ARM * beam);
+        let arm = |distance: f64, below: f64| {
+            (away(surface + distance) - tangent(slope) * (below * f64::from(sizes.disk)), ARM * beam)
+        };
         let (bar, fittings) = match contact.touch.as_deref().map(Branch::surface) {
             None => {
                 // The jaws hold the rim between them, clear of the backbones.
@@ -74,11 +76,12 @@ impl Obstacle {
                     center: away(surface + 0.5 * (near + far)) + along * (end * (gap + 0.5 * thick)),
                     half: [0.5 * (far - near), 0.5 * thick],
                 };
-                (arm(far), vec![jaw(-1.0), jaw(1.0)])
+                (arm(far, 0.0), vec![jaw(-1.0), jaw(1.0)])
             }
             Some(Surface::Plane) => {
                 let half = [0.25 * beam, PLATE * f64::from(sizes.disk)];
-                (arm((0.4 + ARM) * beam), vec![Piece::Bar { center: away(surface + half[0]), half }])
+                // Below its middle, clear of the part that bends over it.
+                (arm((0.4 + ARM) * beam, 0.3), vec![Piece::Bar { center: away(surface + half[0]), half }])
             }
             Some(Surface::Cylinder { rounding }) => {
                 let reach = rounding * length;
@@ -160,6 +163,17 @@ pub fn only_touches(run: &Run) -> bool {
     run.plan.contact().is_some_and(|contact| contact.touch.is_some())
 }
 
+/// Whether the segment has got away from a beam at a place of a run: it bends beyond where the contact ends, and the beam is in the way of
+/// nothing any more.
+#[must_use]
+pub fn let_go(run: &Run, place: usize) -> bool {
+    let ended = |contact: &PlannedContact| {
+        let (last, _) = contact.touch.as_deref()?.ending()?;
+        Some(contact.side * (run.commanded(place).bend() - last) > 0.0)
+    };
+    run.plan.contact().and_then(ended).unwrap_or(false)
+}
+
 /// Where the paper's model has the backbone at a place of a run while a beam touches it that does not clamp: frozen below the contact.
 #[must_use]
 pub fn frozen(run: &Run, place: usize) -> Option<Shape> {
@@ -186,7 +200,7 @@ fn normal(slope: f64) -> Planar {
 mod tests {
     use super::*;
     use centrode_core::run::simulate;
-    use centrode_core::scenario::{ContactKind, Scenario};
+    use centrode_core::scenario::{ContactKind, Place, Scenario};
 
     fn run(kind: ContactKind, change: impl FnOnce(&mut Scenario)) -> (Run, Proportions) {
         let mut scenario = Scenario::default();
@@ -284,6 +298,20 @@ mod tests {
         assert_eq!(obstacle.fittings.len(), 2);
         let place = run.place(7.0);
         assert_eq!((Push::of(&run, &sizes, &run.shape(place)), frozen(&run, place)), (None, None));
+    }
+
+    #[test]
+    fn a_beam_that_slides_off_has_let_go() {
+        let (run, sizes) = run(ContactKind::Cylinder, |scenario| {
+            scenario.contact.place = Place::disk(3);
+            scenario.contact.rounding = 0.008;
+        });
+        let at = |time| (let_go(&run, run.place(time)), run.shape(run.place(time)));
+        for (time, gone) in [(5.0, false), (5.9, false), (9.0, true)] {
+            let (let_go, shape) = at(time);
+            assert_eq!(let_go, gone, "{time} s");
+            assert!(!gone || Push::of(&run, &sizes, &shape).is_none());
+        }
     }
 
     #[test]

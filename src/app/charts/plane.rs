@@ -197,14 +197,16 @@ impl View<'_> {
     /// The beam, the true robot, and its ghost.
     fn robot(&self, painter: &Painter) {
         let theme = &self.theme;
-        let edge = Stroke::new(1.5, theme.ink.gamma_multiply(0.5));
+        let opacity = if self.track.let_go(self.cursor) { 0.3 } else { 1.0 };
+        let (fill, edge) = (theme.obstacle.gamma_multiply(opacity), theme.ink.gamma_multiply(0.5 * opacity));
+        let edge = Stroke::new(1.5, edge);
         for piece in self.track.beam() {
             match piece {
                 Outline::Round(center, radius) => {
-                    painter.circle(self.axes.at(center), radius as f32 * self.axes.scale, theme.obstacle, edge);
+                    painter.circle(self.axes.at(center), radius as f32 * self.axes.scale, fill, edge);
                 }
                 Outline::Bar(corners) => {
-                    painter.add(Shape::convex_polygon(self.line(&corners), theme.obstacle, edge));
+                    painter.add(Shape::convex_polygon(self.line(&corners), fill, edge));
                 }
             }
         }

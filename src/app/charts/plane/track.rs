@@ -159,6 +159,12 @@ impl<'a> Track<'a> {
         obstacle.pieces().map(outline).collect()
     }
 
+    /// Whether the segment has got away from the beam at a time.
+    #[must_use]
+    pub fn let_go(&self, time: f64) -> bool {
+        obstacle::let_go(self.run, self.run.place(time))
+    }
+
     /// The force of the beam in a shape, while it touches it.
     #[must_use]
     pub fn force(&self, shape: &Shape) -> Option<Force> {

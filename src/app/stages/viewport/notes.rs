@@ -73,7 +73,7 @@ fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, run: (&Run, bool), scene: &
     let size = legend::size(&painter, theme, width, &entries);
     let place = Rect::from_min_size(pos2(room.left(), room.bottom() - size.y), size);
     let free = view.rect.contains_rect(place)
-        && size.y < 0.4 * view.rect.height()
+        && size.y < 0.45 * view.rect.height()
         && !bodies(scene).filter_map(|point| view.at(point)).any(|at| place.contains(at));
     free.then(|| {
         legend::legend(&painter, theme, place.min, width, &entries);
