@@ -315,7 +315,7 @@ impl App {
         if robot {
             if let Some(rect) = layout.view {
                 layout::card(ui, "view", rect, |ui| {
-                    viewport::viewport(ui, (run, memo.version()), memo.trace(), cursor, view, out);
+                    viewport::viewport(ui, (run, memo.version()), memo.trace(), (cursor, state.frozen), view, out);
                 });
                 layout::round(ui, rect);
                 chip.show(ui, rect.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
@@ -352,9 +352,9 @@ impl App {
                     plots::plots(ui, (run, memo.version()), cursor, plots, out);
                 }
             }),
-            Tab::Plane => {
-                layout::inside(ui, "plane", rect.shrink(8.0), |ui| plane::plane(ui, run, memo.trace(), cursor, out))
-            }
+            Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| {
+                plane::plane(ui, run, memo.trace(), (cursor, state.frozen), out);
+            }),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
             if let Some(rect) = rect.filter(|rect| robot || !covered.contains_rect(*rect)) {

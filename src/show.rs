@@ -1,18 +1,22 @@
 //! A run at one instant, as a scene.
 
+mod beam;
 pub mod ink;
 mod load;
 mod loci;
+pub mod obstacle;
 pub mod paper;
 mod robot;
 pub mod track;
 
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Ground, Pose, Scene};
+use beam::Beam;
 use centrode_core::model::{self, Arc, Configuration};
 use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
+use obstacle::{Obstacle, Push};
 pub use robot::Proportions;
 use std::f32::consts::PI;
 use track::Trace;
@@ -24,6 +28,8 @@ pub struct ViewOptions {
     pub palette: Palette,
     /// How far the ring around a fresh detection has run, 0..1; 0 shows none.
     pub pulse: f32,
+    /// Whether a beam that only touches is held against the paper's model of it, which freezes the part below.
+    pub frozen: bool,
 }
 
 /// The scene of `run`, whose loci are `trace`, at `time` (s): robot, beam, ghost, screw axes, centrode loci, estimate.
@@ -39,14 +45,21 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
     let mut scene = Scene { ground: Some(floor(run, palette, &sizes)), ..Scene::default() };
     let pose = |s: f32| scene_pose(&shape.pose(f64::from(s)));
     robot::robot(&mut scene, palette, &sizes, pose);
-    if let Some(contact) = run.plan.contact() {
-        let at_contact = Arc { length, configuration: configuration.with_bend(contact.bend) };
-        let at = scene_pose(&at_contact.pose(contact.arc_length));
-        robot::beam(&mut scene, palette, &sizes, &at, contact, (delta, held));
+    let push = Push::of(run, &sizes, &shape);
+    if let (Some(obstacle), Some(contact)) = (Obstacle::of(run, &sizes), run.plan.contact()) {
+        let beam = Beam { obstacle: &obstacle, sizes: &sizes, delta, let_go: obstacle::let_go(run, place) };
+        let surface = f64::from(sizes.surface(contact.arc_length));
+        beam.draw(&mut scene, palette, held.then(|| beam.touching(push.as_ref(), surface)));
+        if let Some(push) = &push {
+            beam.force(&mut scene, palette, push, length as f32);
+        }
     }
     if held {
         let free = Arc { length, configuration };
-        robot::ghost(&mut scene, palette, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
+        robot::ghost(&mut scene, palette.model, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
+    }
+    if let Some(frozen) = obstacle::frozen(run, place).filter(|_| options.frozen) {
+        robot::ghost(&mut scene, palette.constrained, &sizes, |s| scene_pose(&frozen.pose(f64::from(s))));
     }
     let signs = Signs { run, trace, truth, palette, time, lift: 1.5 * sizes.disk };
     signs.loci(&mut scene);
@@ -140,7 +153,7 @@ mod tests {
 
     fn at(scenario: &Scenario, time: f64) -> Scene {
         let run = simulate(scenario).expect("valid");
-        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0 })
+        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0, frozen: false })
     }
 
     fn count(scene: &Scene, shape: Shape) -> usize {
@@ -216,8 +229,12 @@ mod tests {
             for size in [Vec2::new(730.0, 500.0), Vec2::new(375.0, 320.0), Vec2::new(300.0, 600.0)] {
                 let mut high = f32::MAX;
                 for time in [0.0, 5.5, 6.5, 8.0] {
-                    let scene =
-                        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 });
+                    let scene = view(
+                        &run,
+                        &Trace::new(&run),
+                        time,
+                        &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false },
+                    );
                     let solid = scene.tubes.iter().filter(|tube| tube.finish != Finish::Ghost);
                     for &point in solid.flat_map(|tube| &tube.path) {
                         let at = camera.project(point, size).expect("in front").truncate() / size;
@@ -237,7 +254,9 @@ mod tests {
         let run = simulate(&scenario).expect("valid");
         let (camera, size) = (home_camera(&run), Vec2::new(800.0, 600.0));
         let tip = |time| {
-            view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0 }).tubes[0].path[48]
+            view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false })
+                .tubes[0]
+                .path[48]
         };
         let across = |time| camera.project(tip(time), size).expect("in front").x;
         assert!(across(8.0) > across(0.0) + 50.0);

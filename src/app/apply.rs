@@ -27,6 +27,7 @@ impl App {
                     self.state.time = ((time * 1e6).round() / 1e6).clamp(0.0, self.end());
                 }
                 Command::SetSpeed(speed) => self.state.speed = speed.clamp(0.1, 4.0),
+                Command::ToggleFrozen => self.state.frozen = !self.state.frozen,
                 Command::ToggleLoop => self.state.looping = !self.state.looping,
                 Command::Choose(preset) => {
                     // Whoever chooses another experiment wants to see it: a figure would go on showing its own.

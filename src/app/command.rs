@@ -69,6 +69,8 @@ pub enum Command {
     SetSpeed(f64),
     /// Start again at the end, or stop there.
     ToggleLoop,
+    /// Hold the shape against a beam that only touches against that of a clamp, or no longer.
+    ToggleFrozen,
     /// Choose a preset and load its scenario.
     Choose(&'static Preset),
     /// Set ξ1, N·m.

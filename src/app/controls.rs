@@ -13,7 +13,7 @@ use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, UiBui
 
 use crate::app::charts::notation;
 use crate::app::command::Command;
-use crate::app::controls::control::Group;
+use crate::app::controls::control::{Control, Group};
 use crate::app::controls::table::GROUPS;
 use crate::app::fonts;
 use crate::app::layout;
@@ -84,14 +84,20 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
             ui.add(egui::Label::new(egui::RichText::new(note).size(11.5).color(theme.dim)).wrap());
             ui.add_space(4.0);
         }
-        for control in group.controls {
+        let number = |ui: &mut Ui, control: &'static Control, out: &mut Vec<Command>| {
             let remembered = inputs.state.otherwise(control, base);
             let context = Context { scenario, base, note: note(control.key), remembered, touch };
             ui.add_enabled_ui(!idle(control.key), |ui| row::number(ui, control, &context, out));
+        };
+        for control in group.controls.iter().filter(|control| control.only.is_none()) {
+            number(ui, control, out);
         }
         for choice in group.choices {
             let context = Context { scenario, base, note: note(choice.of.path), remembered: None, touch };
             ui.add_enabled_ui(!idle(choice.of.path), |ui| row::choice(ui, choice, &context, out));
+        }
+        for control in group.controls.iter().filter(|control| control.only.is_some_and(|only| only(scenario))) {
+            number(ui, control, out);
         }
         if !group.note.is_empty() {
             ui.add_space(6.0);

@@ -33,6 +33,8 @@ pub struct State {
     pub speed: f64,
     /// Whether playback starts again at the end.
     pub looping: bool,
+    /// Whether the views show beside a beam that only touches what a clamp would make of the segment.
+    pub frozen: bool,
     /// Dark or light.
     pub theme: ThemeChoice,
     /// Names of the groups of controls that are folded.
@@ -97,6 +99,7 @@ impl Default for State {
             playing: true,
             speed: 1.0,
             looping: true,
+            frozen: false,
             theme: ThemeChoice::System,
             folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
             stage: Stage::Robot,

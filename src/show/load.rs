@@ -19,15 +19,7 @@ pub fn load(scene: &mut Scene, palette: &Palette, run: &Run, wrench: &Wrench, ti
     let whole = scene_vector(&run.plan.scenario().load.force.into()).length();
     let force = if whole > 0.0 { scene_vector(&wrench.force) / whole } else { Vec3::ZERO };
     let (end, start) = (tip.position, tip.position - force * length);
-    if force != Vec3::ZERO {
-        let along = force.normalize();
-        let head = (0.35 * length).min(start.distance(end)) * 0.6;
-        let mut arrow = |path| scene.lines.push(Line::new(path, 3.5, palette.force).through(0.6).lifted(0.1 * length));
-        arrow(vec![start, end]);
-        for side in [along.any_orthonormal_vector(), -along.any_orthonormal_vector()] {
-            arrow(vec![end, end - along * head + side * 0.5 * head]);
-        }
-    }
+    arrow(scene, palette, [start, end], (length, 0.1 * length));
     let (force, moment) = (wrench.force.norm(), wrench.moment.norm() * 1e3);
     let words = [(force, format!("{force:.2} N")), (moment, format!("{moment:.1} mN·m"))];
     let text: Vec<_> = words.into_iter().filter(|(size, _)| *size > 0.0).map(|(_, words)| words).collect();
@@ -37,4 +29,16 @@ pub fn load(scene: &mut Scene, palette: &Palette, run: &Run, wrench: &Wrench, ti
         text: text.join(", "),
         color: palette.force,
     });
+}
+
+/// A force from `start` to where it acts. `whole` is the length of the longest such arrow, m, and `lift` how far it stands before
+/// what is there, m.
+pub fn arrow(scene: &mut Scene, palette: &Palette, [start, end]: [Vec3; 2], (whole, lift): (f32, f32)) {
+    let Some(along) = (end - start).try_normalize() else { return };
+    let head = (0.35 * whole).min(start.distance(end)) * 0.6;
+    let mut line = |path| scene.lines.push(Line::new(path, 3.5, palette.force).through(0.6).lifted(lift));
+    line(vec![start, end]);
+    for side in [along.any_orthonormal_vector(), -along.any_orthonormal_vector()] {
+        line(vec![end, end - along * head + side * 0.5 * head]);
+    }
 }

@@ -1,9 +1,8 @@
-//! The bodies: backbones, disks, the beam, and the ghost of the free shape.
+//! The robot's bodies: backbones and disks, and the ghosts of shapes that it does not have.
 
 use crate::scene::palette::Palette;
-use crate::scene::{Block, Cap, Color, Disk, Finish, Hole, Line, Mark, Marker, Pose, Scene, Shape, Solid, Tube, arc};
+use crate::scene::{Block, Cap, Color, Disk, Finish, Hole, Line, Mark, Pose, Scene, Solid, Tube, arc};
 use centrode_core::run::Run;
-use centrode_core::scenario::plan::PlannedContact;
 use glam::{Quat, Vec2, Vec3};
 
 /// Frames along a backbone: enough that no corner shows.
@@ -54,6 +53,21 @@ impl Proportions {
         if self.at_disk(s) { self.disk } else { self.pitch + self.secondary }
     }
 
+    /// How far a disk's rim stands out from the backbones at arc length `s` (m); 0 between disks.
+    pub fn rim(&self, s: f64) -> f32 {
+        self.surface(s) - self.pitch - self.secondary
+    }
+
+    /// Radius of the thinnest bodies: the backbones.
+    pub fn thin(&self) -> f32 {
+        self.secondary
+    }
+
+    /// Thickness of a spacer disk.
+    pub fn thickness(&self) -> f32 {
+        0.17 * self.disk
+    }
+
     fn holes(&self) -> Vec<Hole> {
         let on_pitch = (0..3).map(|i| (arc::pitch_point(self.pitch, i, 3), self.secondary));
         std::iter::once((Vec2::ZERO, self.primary))
@@ -65,7 +79,7 @@ impl Proportions {
 
 /// Base, disks, and the four backbones along `shape`.
 pub fn robot(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: impl Fn(f32) -> Pose) {
-    let thickness = 0.17 * sizes.disk;
+    let thickness = sizes.thickness();
     let frames = arc::frames(Pose::IDENTITY, sizes.length, FRAMES, &shape);
     let frames = arc::extended(&frames, 0.0, 1.6 * thickness);
     let tube = |at, radius, color| Tube {
@@ -106,64 +120,22 @@ pub fn robot(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: i
     });
 }
 
-/// The shape that the robot would have without the beam.
-pub fn ghost(scene: &mut Scene, palette: &Palette, sizes: &Proportions, shape: impl Fn(f32) -> Pose) {
+/// A shape that the robot would have, as a ghost of this colour.
+pub fn ghost(scene: &mut Scene, color: Color, sizes: &Proportions, shape: impl Fn(f32) -> Pose) {
     let frames = arc::frames(Pose::IDENTITY, sizes.length, FRAMES, &shape);
     for i in 0..3 {
         scene.tubes.push(Tube {
             path: arc::offset(&frames, arc::pitch_point(sizes.pitch, i, 3)),
             radius: sizes.secondary,
-            color: palette.model.alpha(0.45),
+            color: color.alpha(0.45),
             finish: Finish::Ghost,
             cap: Cap::None,
         });
     }
-    let line = |path, width| Line::new(path, width, palette.model.alpha(0.85)).through(0.2);
+    let line = |path, width| Line::new(path, width, color.alpha(0.85)).through(0.2);
     let center = line(arc::offset(&frames, Vec2::ZERO), 1.75);
     scene.lines.push(center.dashed(0.053 * sizes.length, 0.6));
     for &s in sizes.spacers.iter().chain([&sizes.length]) {
         scene.lines.push(line(arc::circle(shape(s), sizes.disk, 64), 1.25));
-    }
-}
-
-/// The beam, where the backbone meets it: a rod across the bending plane, carried by a post behind the robot.
-///
-/// `at` is the frame of the contact's arc length in the shape of the contact; `touched` whether the beam holds it now.
-pub fn beam(
-    scene: &mut Scene,
-    palette: &Palette,
-    sizes: &Proportions,
-    at: &Pose,
-    contact: &PlannedContact,
-    (delta, touched): (f32, bool),
-) {
-    let side = contact.side as f32;
-    let rod = sizes.beam;
-    // x toward which the segment bends, y along the bending axis and away from the viewer, z along the backbone.
-    let frame = at.then(&Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta)));
-    let surface = side * sizes.surface(contact.arc_length);
-    let along = |y: f32| frame.point(Vec3::new(surface + side * rod, side * y * sizes.disk, 0.0));
-    let cylinder = |position, rotation, radius, half_length| Block {
-        pose: Pose::new(position, rotation),
-        solid: Solid::Cylinder { radius, half_length },
-        bevel: 0.2 * rod,
-        color: palette.stone,
-        finish: Finish::Matte,
-    };
-    let (front, back, post) = (-0.75, 3.0, 2.6);
-    let across = frame.rotation * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
-    let half = 0.5 * (back - front) * sizes.disk;
-    scene.blocks.push(cylinder(along(0.5 * (front + back)), across, rod, half));
-    let top = along(post);
-    let half_height = 0.5 * (top.z + 1.5 * rod - sizes.floor).max(0.0);
-    let on_floor = |height: f32| Vec3::new(top.x, top.y, sizes.floor + height);
-    scene.blocks.push(cylinder(on_floor(half_height), Quat::IDENTITY, 0.95 * rod, half_height));
-    scene.blocks.push(cylinder(on_floor(0.2 * rod), Quat::IDENTITY, 2.1 * rod, 0.2 * rod));
-    if let Some(ground) = &mut scene.ground {
-        ground.contacts.push([top.x, top.y, 3.0 * rod, 0.4]);
-    }
-    if touched {
-        let touch = Marker::new(frame.point(Vec3::X * surface), Shape::Ring, 15.0, palette.ink);
-        scene.markers.push(touch.faded(0.7).through(0.7).lifted(sizes.disk));
     }
 }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
+mod contact;
 mod embed;
 mod links;
 mod logs;

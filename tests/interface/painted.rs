@@ -1,7 +1,7 @@
 //! The words that are painted: whole, apart, and set like a text.
 
 use crate::stages::show;
-use crate::support::{Page, page_of, slide};
+use crate::support::{Page, click, page_of, slide};
 use centrode::app::stages::stage::Stage;
 use centrode::app::words::help::PARAGRAPHS;
 use egui::epaint::TextShape;
@@ -38,15 +38,23 @@ fn places(page: &Page, start: &str) -> Vec<(Rect, bool)> {
 
 #[test]
 fn the_legend_of_the_plane_is_whole_on_a_small_laptop() {
-    let page = page_of(SMALL);
-    let mut rows = Vec::new();
-    for entry in ["cm model", "cc constrained", "cs sensor", "true shape", "if unconstrained", "beam", "estimate"] {
-        let found = places(&page, entry);
-        assert!(!found.is_empty() && found.iter().all(|(_, visible)| *visible), "{entry}: {found:?}");
-        rows.extend(found.into_iter().map(|(rect, _)| rect.shrink(1.0)));
-    }
-    for (k, row) in rows.iter().enumerate() {
-        assert!(rows[..k].iter().all(|other| !other.intersects(*row)), "{row} covers another of {rows:?}");
+    let mut page = page_of(SMALL);
+    for kind in ["Clamp", "Plane"] {
+        click(&mut page, kind);
+        let mut entries =
+            vec!["cm model", "cc constrained", "cs sensor", "true shape", "if unconstrained", "beam", "estimate"];
+        if kind == "Plane" {
+            entries.push("contact force");
+        }
+        let mut rows = Vec::new();
+        for entry in entries {
+            let found = places(&page, entry);
+            assert!(!found.is_empty() && found.iter().all(|(_, visible)| *visible), "{entry}: {found:?}");
+            rows.extend(found.into_iter().map(|(rect, _)| rect.shrink(1.0)));
+        }
+        for (k, row) in rows.iter().enumerate() {
+            assert!(rows[..k].iter().all(|other| !other.intersects(*row)), "{row} covers another of {rows:?}");
+        }
     }
 }
 

@@ -7,6 +7,7 @@ use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paus
 use crate::tuning::tune;
 use egui::Theme::{Dark, Light};
 use egui::{Vec2, vec2};
+use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
 use egui_kittest::{Harness, SnapshotOptions};
 use egui_wgpu::RendererOptions;
@@ -62,6 +63,23 @@ fn robot_after_detection() {
 #[test]
 fn robot_on_a_small_desk() {
     compare(&mut page(vec2(1280.0, 720.0), Light, 7.0), "robot-detected-small-desk-light");
+}
+
+#[test]
+fn against_a_plane() {
+    let mut page = page(DESK, Dark, 7.0);
+    click(&mut page, "Plane");
+    compare(&mut page, "robot-plane-desk-dark");
+}
+
+#[test]
+fn against_a_cylinder() {
+    let mut page = page(DESK, Light, 7.0);
+    assert!(page.query_by_label("Compare with a clamp").is_none(), "it is one");
+    click(&mut page, "Cylinder");
+    slide(&mut page, "Rounding", 6.0);
+    click(&mut page, "Compare with a clamp");
+    compare(&mut page, "robot-cylinder-desk-light");
 }
 
 #[test]

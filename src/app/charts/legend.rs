@@ -26,6 +26,8 @@ pub enum Form {
     Ghost,
     /// An instantaneous screw axis.
     Axis,
+    /// The force of the beam.
+    Arrow,
 }
 
 /// Paints a mark; `size` 1 is that of a locus.
@@ -58,11 +60,25 @@ pub fn mark(painter: &Painter, at: Pos2, form: Form, size: f32, color: Color32, 
             let line = [at - vec2(8.0, 0.0), at + vec2(8.0, 0.0)];
             painter.extend(Shape::dashed_line(&line, Stroke::new(1.6, color), 4.0, 3.0));
         }
+        Form::Arrow => arrow(painter, [at - vec2(8.0, 0.0), at + vec2(8.0, 0.0)], Stroke::new(2.0, color)),
         Form::Axis => {
             let line = [at - vec2(8.0, 0.0), at + vec2(8.0, 0.0)];
             painter.extend(Shape::dashed_line(&line, Stroke::new(1.4, color), 7.0, 2.0));
         }
     }
+}
+
+/// Length of an arrow's head and half its width, points.
+const HEAD: Vec2 = vec2(9.0, 4.5);
+
+/// Paints an arrow; one shorter than its head is all head.
+pub fn arrow(painter: &Painter, [tail, head]: [Pos2; 2], stroke: Stroke) {
+    let along = (head - tail).normalized();
+    let size = HEAD * ((head - tail).length() / HEAD.x).min(1.0);
+    let back = head - along * size.x;
+    painter.line_segment([tail, back], stroke);
+    let side = along.rot90() * size.y;
+    painter.add(Shape::convex_polygon(vec![head, back + side, back - side], stroke.color, Stroke::NONE));
 }
 
 /// One line of the legend.

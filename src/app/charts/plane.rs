@@ -4,18 +4,19 @@ mod flat;
 mod paint;
 mod track;
 
-use crate::app::charts::legend::{Entry, Form, ROW, legend, mark};
+use crate::app::charts::legend::{Entry, Form, ROW, arrow, legend, mark};
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use crate::show::obstacle;
 use crate::show::track::{Trace, standing};
 use centrode_core::detect::Standing;
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
 use paint::{label, place, strip};
-use track::{Loci, Track};
+use track::{Loci, Outline, Track};
 
 /// Least size of the whole view, points.
 const LEAST: Vec2 = vec2(160.0, 120.0);
@@ -31,8 +32,9 @@ const USUAL: f32 = 6.5;
 /// A mark can be pointed at from this far, points.
 const REACH: f32 = 10.0;
 
-/// Shows the plane at the playback position `cursor` (s) in the space that is left.
-pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<Command>) {
+/// Shows the plane at the playback position `cursor` (s) in the space that is left, with the `frozen` shape of the paper's model if
+/// that is wished.
+pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool), out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let space = ui.available_size();
     let height = if space.y.is_finite() { space.y } else { 0.95 * space.x };
@@ -45,7 +47,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     let loci = track.loci(cursor);
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
     painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
-    let entries = entries(run, &theme);
+    let entries = entries(run, &theme, frozen);
     // The data is about as wide as high: what a low view has to spare is at its side.
     let aside = area.width() > 1.15 * area.height();
     let mut data = Rect::from_min_max(
@@ -66,7 +68,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     }
     let axes = Axes::fit(track.bounds(&loci), data);
     let size = (axes.scale / USUAL).clamp(0.6, 1.0);
-    let view = View { run, track, theme, cursor, axes, data, loci, size };
+    let view = View { run, track, theme, cursor, frozen, axes, data, loci, size };
 
     let response = ui.interact(data, ui.scope_id().with("bending plane"), Sense::CLICK);
     let deviation = run.sample_at(cursor).judgement.deviation * 1e3;
@@ -78,7 +80,8 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
     let clipped = painter.with_clip_rect(data.intersect(painter.clip_rect()));
     view.robot(&clipped);
     view.marks(&clipped);
-    view.now(&clipped);
+    let named = view.force(&clipped);
+    view.now(&clipped, named);
     view.estimate(&clipped);
     if let Some((mark, name, color, at)) = response.hover_pos().and_then(|pos| view.near(pos)) {
         ui.set_cursor_icon(CursorIcon::PointingHand);
@@ -96,7 +99,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, cursor: f64, out: &mut Vec<C
 }
 
 /// What the legend names: all that the run will show, so that it does not move during playback.
-fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
+fn entries(run: &Run, theme: &Theme, frozen: bool) -> Vec<Entry> {
     let entry = |form, color, text| Entry { form, color, text };
     let mut entries = vec![
         entry(Form::Triangle, theme.model, "c_m model"),
@@ -106,6 +109,10 @@ fn entries(run: &Run, theme: &Theme) -> Vec<Entry> {
     if run.contact_time().is_some() {
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
+        if obstacle::only_touches(run) {
+            entries.extend(frozen.then(|| entry(Form::Ghost, theme.constrained, "if clamped")));
+            entries.push(entry(Form::Arrow, theme.force, "contact force"));
+        }
     }
     if run.plan.contact().is_some() {
         entries.push(entry(Form::Beam, theme.obstacle, "beam"));
@@ -156,6 +163,7 @@ struct View<'a> {
     track: Track<'a>,
     theme: Theme,
     cursor: f64,
+    frozen: bool,
     axes: Axes,
     data: Rect,
     loci: Loci,
@@ -189,14 +197,23 @@ impl View<'_> {
     /// The beam, the true robot, and its ghost.
     fn robot(&self, painter: &Painter) {
         let theme = &self.theme;
-        if let Some(beam) = self.track.beam() {
-            let at = self.axes.at(beam.center);
-            let radius = beam.radius as f32 * self.axes.scale;
-            painter.circle(at, radius, theme.obstacle, Stroke::new(1.5, theme.ink.gamma_multiply(0.5)));
+        let opacity = if self.track.let_go(self.cursor) { 0.3 } else { 1.0 };
+        let (fill, edge) = (theme.obstacle.gamma_multiply(opacity), theme.ink.gamma_multiply(0.5 * opacity));
+        let edge = Stroke::new(1.5, edge);
+        for piece in self.track.beam() {
+            match piece {
+                Outline::Round(center, radius) => {
+                    painter.circle(self.axes.at(center), radius as f32 * self.axes.scale, fill, edge);
+                }
+                Outline::Bar(corners) => {
+                    painter.add(Shape::convex_polygon(self.line(&corners), fill, edge));
+                }
+            }
         }
-        if let Some(ghost) = self.track.ghost(self.cursor) {
-            let color = theme.model.gamma_multiply(0.75);
-            painter.extend(Shape::dashed_line(&self.line(&ghost), Stroke::new(1.6, color), 5.0, 4.0));
+        let frozen = if self.frozen { self.track.frozen(self.cursor) } else { None };
+        for (ghost, color) in [(self.track.ghost(self.cursor), theme.model), (frozen, theme.constrained)] {
+            let stroke = Stroke::new(1.6, color.gamma_multiply(0.75));
+            painter.extend(Shape::dashed_line(&self.line(&ghost.unwrap_or_default()), stroke, 5.0, 4.0));
         }
         let robot = self.track.robot(&self.track.truth(self.cursor));
         let sides = robot.sides.each_ref().map(|side| self.line(side));
@@ -251,8 +268,8 @@ impl View<'_> {
         Some((*mark, name, color, self.axes.at(mark.at)))
     }
 
-    /// The centrodes now, and the deviation between model and sensor.
-    fn now(&self, painter: &Painter) {
+    /// The centrodes now, and the deviation between model and sensor; another label may have `taken` a place.
+    fn now(&self, painter: &Painter, taken: Option<Rect>) {
         let theme = &self.theme;
         let sample = self.run.sample_at(self.cursor);
         let (model, sensor) = (self.track.model(&sample), self.track.sensed(&sample));
@@ -266,7 +283,8 @@ impl View<'_> {
             let color = if over { theme.detection } else { theme.sensor };
             let ends = [self.axes.at(model), self.axes.at(sensor)];
             painter.line_segment(ends, Stroke::new(2.0, color));
-            self.deviation(painter, ends, sample.judgement.deviation * 1e3, color);
+            let text = format!("{} mm", number(sample.judgement.deviation * 1e3, 2));
+            self.value(painter, ends[0] + 0.5 * (ends[1] - ends[0]), ends, (&text, color), taken);
         }
         if let Some(model) = model {
             mark(painter, self.axes.at(model), Form::Triangle, 1.7 * self.size, theme.model, theme);
@@ -277,20 +295,45 @@ impl View<'_> {
         }
     }
 
-    fn deviation(&self, painter: &Painter, ends: [Pos2; 2], value: f64, color: Color32) {
-        let text = format!("{} mm", number(value, 2));
-        let galley = painter.layout_job(job(&text, TEXT - 1.0, self.theme.ink));
-        let middle = self.data.shrink(8.0).clamp(ends[0] + 0.5 * (ends[1] - ends[0]));
+    /// A value beside `at`, clear of what is drawn, of the line that it belongs to and of a place that is taken; gives its own.
+    fn value(
+        &self,
+        painter: &Painter,
+        at: Pos2,
+        ends: [Pos2; 2],
+        (text, color): (&str, Color32),
+        taken: Option<Rect>,
+    ) -> Rect {
+        let galley = painter.layout_job(job(text, TEXT - 1.0, self.theme.ink));
+        let along = |[a, b]: [Pos2; 2]| (0_u8..=8).map(move |k| a + (b - a) * (f32::from(k) / 8.0));
         let mut in_the_way: Vec<Pos2> = self.shown().map(|(mark, ..)| self.axes.at(mark.at)).collect();
-        let robot = self.track.robot(&self.track.truth(self.cursor));
+        let shape = self.track.truth(self.cursor);
+        let robot = self.track.robot(&shape);
         in_the_way.extend(self.line(&robot.backbone));
         in_the_way.extend(robot.disks.iter().flatten().map(|&at| self.axes.at(at)));
-        in_the_way.extend((0..=8).map(|k| ends[0] + (ends[1] - ends[0]) * (k as f32 / 8.0)));
-        if let Some(beam) = self.track.beam() {
-            in_the_way.push(self.axes.at(beam.center));
+        in_the_way.extend(along(ends));
+        if let Some(force) = self.track.force(&shape) {
+            in_the_way.extend(along(force.arrow.map(|at| self.axes.at(at))));
         }
-        let size = galley.size() + vec2(10.0, 4.0);
-        label(painter, place(middle, size, self.data.shrink(2.0), &in_the_way), galley, color, &self.theme);
+        if let Some(Outline::Round(center, _)) = self.track.beam().first() {
+            in_the_way.push(self.axes.at(*center));
+        }
+        if let Some(taken) = taken {
+            in_the_way.extend(along([taken.left_top(), taken.right_top()]));
+            in_the_way.extend(along([taken.left_bottom(), taken.right_bottom()]));
+        }
+        let at = self.data.shrink(8.0).clamp(at);
+        let rect = place(at, galley.size() + vec2(10.0, 4.0), self.data.shrink(2.0), &in_the_way);
+        label(painter, rect, galley, color, &self.theme);
+        rect
+    }
+
+    /// The force of a beam that only touches, with its size beside its tail; gives the place of that.
+    fn force(&self, painter: &Painter) -> Option<Rect> {
+        let force = self.track.force(&self.track.truth(self.cursor))?;
+        let ends = force.arrow.map(|at| self.axes.at(at));
+        arrow(painter, ends, Stroke::new(2.4, self.theme.force));
+        Some(self.value(painter, ends[0], ends, (&force.words, self.theme.force), None))
     }
 
     /// After the detection: the estimated place of the contact on the backbone, against the true one.

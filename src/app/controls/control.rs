@@ -52,6 +52,8 @@ pub struct Control {
     pub hint: &'static str,
     /// Words in place of the number.
     pub words: Option<Words>,
+    /// Where it means something; there it stands below the options of its group, on which this depends. None: everywhere.
+    pub only: Option<fn(&Scenario) -> bool>,
 }
 
 /// For a control whose setting is not always a number.

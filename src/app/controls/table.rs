@@ -5,6 +5,7 @@ use crate::app::controls::control::{Choice, Control, Group, Scale, Words};
 use crate::app::controls::{contact, span};
 use Scale::{Linear, Log, LogWhole, Stops, Whole};
 use centrode_core::scenario::keys::{self, Key};
+use centrode_core::scenario::{ContactKind, Scenario};
 
 mod forces;
 
@@ -18,12 +19,16 @@ const fn key(path: &str) -> &'static Key {
 
 /// A row: key, label, digits after the point, and how values lie along the slider.
 const fn row(path: &'static str, label: &'static str, decimals: usize, scale: Scale) -> Control {
-    Control { key: path, of: key(path), part: None, label, decimals, scale, hint: "", words: None }
+    Control { key: path, of: key(path), part: None, label, decimals, scale, hint: "", words: None, only: None }
 }
 
 impl Control {
     const fn with_words(self, hint: &'static str, words: Words) -> Self {
         Self { hint, words: Some(words), ..self }
+    }
+
+    const fn only_for(self, hint: &'static str, only: fn(&Scenario) -> bool) -> Self {
+        Self { hint, only: Some(only), ..self }
     }
 }
 
@@ -42,7 +47,12 @@ const CONTACT: &[Control] = &[
         },
     ),
     row("motion.delta", "Bending direction δ", 0, Linear(1.0)),
+    row("contact.rounding", "Rounding", 1, Linear(0.1))
+        .only_for("A larger one is a thicker beam.", |scenario| scenario.contact.kind == ContactKind::Cylinder),
 ];
+
+const CONTACT_CHOICES: &[Choice] =
+    &[Choice { of: key("contact.kind"), label: "Beam", hint: "", options: &["Clamp", "Plane", "Cylinder"] }];
 
 const SENSORS: &[Control] = &[
     row("load_cells.epsilon_tau", "Load cell error ε_τ", 1, Linear(0.5)),
@@ -92,7 +102,7 @@ const DEVICE_CHOICES: &[Choice] = &[
 
 /// All of them, in the order shown.
 pub static GROUPS: &[Group] = &[
-    Group { name: "Contact", folded: false, controls: CONTACT, choices: &[], note: "" },
+    Group { name: "Contact", folded: false, controls: CONTACT, choices: CONTACT_CHOICES, note: "" },
     Group { name: "Sensors", folded: false, controls: SENSORS, choices: &[], note: "" },
     Group { name: "Filter", folded: false, controls: FILTER, choices: &[], note: "" },
     Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: forces::XI1_CHOICES, note: "" },
@@ -126,7 +136,7 @@ pub fn control_of(path: &str) -> Option<&'static Control> {
 mod tests {
     use super::*;
     use crate::app::memo::check;
-    use centrode_core::scenario::{Scenario, Threshold};
+    use centrode_core::scenario::Threshold;
 
     #[test]
     fn every_row_sets_what_it_gets_and_copies_it() {

@@ -15,6 +15,7 @@ use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Scene, Studio};
+use crate::show::obstacle::only_touches;
 use crate::show::track::Trace;
 use crate::show::{ViewOptions, home_camera, view};
 use centrode_core::run::Run;
@@ -46,6 +47,7 @@ struct Shown {
     version: u64,
     time: f64,
     dark: bool,
+    frozen: bool,
 }
 
 impl ViewState {
@@ -96,26 +98,27 @@ impl ViewState {
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, (run, version): (&Run, u64), trace: &Trace, time: f64, dark: bool) {
-        let same = |shown: &Shown| shown.time == time && shown.dark == dark && shown.version == version;
-        if self.shown.as_ref().is_some_and(same) {
+    fn update(&mut self, run: &Run, trace: &Trace, shown: Shown) {
+        if self.shown.as_ref() == Some(&shown) {
             return;
         }
+        let Shown { time, dark, frozen, .. } = shown;
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        self.scene = Arc::new(view(run, trace, time, &ViewOptions { palette: Palette::for_dark(dark), pulse }));
+        let options = ViewOptions { palette: Palette::for_dark(dark), pulse, frozen };
+        self.scene = Arc::new(view(run, trace, time, &options));
         self.version += 1;
-        self.shown = Some(Shown { version, time, dark });
+        self.shown = Some(shown);
     }
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-/// `version` is another for every other run.
+/// `version` is another for every other run; `frozen` shows the shape by the paper's model besides.
 pub fn viewport(
     ui: &mut Ui,
     (run, version): (&Run, u64),
     trace: &Trace,
-    cursor: f64,
+    (cursor, frozen): (f64, bool),
     state: &mut ViewState,
     out: &mut Vec<Command>,
 ) {
@@ -131,7 +134,7 @@ pub fn viewport(
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
-    state.update((run, version), trace, cursor, theme.dark);
+    state.update(run, trace, Shown { version, time: cursor, dark: theme.dark, frozen });
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::for_dark(theme.dark).studio;
@@ -141,7 +144,16 @@ pub fn viewport(
     let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
     let file = button.translate(vec2(-36.0, 0.0));
     let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
-    notes::notes(ui, rect, &camera, run, &state.scene, vec![button, file, chip]);
+    let mut taken = vec![button, file, chip];
+    if only_touches(run) {
+        let compare = file.translate(vec2(-36.0, 0.0));
+        taken.push(compare);
+        let look = if frozen { Look::Lit } else { Look::Plain };
+        if icon::button(ui, compare, Icon::Compare, "Compare with a clamp", look).clicked() {
+            out.push(Command::ToggleFrozen);
+        }
+    }
+    notes::notes(ui, rect, &camera, (run, frozen), &state.scene, taken);
     state.seen = Some((camera, rect.size()));
     save::menu(ui, file, Subject::View, out);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();

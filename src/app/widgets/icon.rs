@@ -45,6 +45,8 @@ pub enum Icon {
     Save,
     /// An arrow out of a window.
     Open,
+    /// Two curves from one foot.
+    Compare,
 }
 
 /// How a button looks.
@@ -99,6 +101,7 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Share => "share",
         Icon::Save => "save",
         Icon::Open => "open",
+        Icon::Compare => "compare",
     }
 }
 
@@ -186,6 +189,15 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             painter.line(frame.map(|(x, y)| p(x, y)).to_vec(), stroke);
             painter.line_segment([p(-0.8, 1.0), p(5.6, -5.4)], stroke);
             painter.line([(2.0, -5.6), (5.8, -5.6), (5.8, -1.8)].map(|(x, y)| p(x, y)).to_vec(), stroke);
+        }
+        Icon::Compare => {
+            let curve = |reach: f32| {
+                let along = (0_u8..=8).map(|i| f32::from(i) / 8.0);
+                along.map(|s| p(-4.5 + reach * s * s, 6.0 - 12.0 * s)).collect::<Vec<_>>()
+            };
+            painter.line(curve(2.5), stroke);
+            let other = curve(10.0);
+            painter.extend(Shape::dashed_line(&other, stroke, 2.4 * scale, 2.0 * scale));
         }
         Icon::Close => {
             painter.line_segment([p(-4.2, -4.2), p(4.2, 4.2)], stroke);

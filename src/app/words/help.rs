@@ -17,9 +17,15 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
     (
         "What happens on contact",
-        "A beam stops one point of the backbone. The part below it keeps its shape and only the part above goes on bending, so the tip turns about another axis, \
-         and the two centrodes move apart by about half the distance from the base to the beam. When they are farther apart than the threshold ξ2, contact is detected. \
+        "A beam stops one point of the backbone. The paper's beam is a clamp: the part below it keeps its shape and only the part above goes on bending, so the tip turns about \
+         another axis, and the two centrodes move apart by about half the distance from the base to the beam. When they are farther apart than the threshold ξ2, contact is detected. \
          The estimate is the place of contact whose model explains the measured centrode best.",
+    ),
+    (
+        "Clamp, plane and cylinder",
+        "A clamp holds a disk where it is and as it is turned. A flat or a round beam only pushes against it, without friction: the part below goes on changing its shape, the \
+         centrodes move apart less, and detection comes later or not at all. The arrow is the force on the robot. “Compare with a clamp” above the 3D view adds the shape that a \
+         clamp would give.",
     ),
     (
         "What the views show",

@@ -2,8 +2,9 @@
 
 use crate::app::charts::plane::flat::{Flat, MM, Mark, Projection, shifted};
 use crate::show::Proportions;
+use crate::show::obstacle::{self, Obstacle, Piece, Push};
 use crate::show::track::{self, Locus, Spot, Trace};
-use centrode_core::model::Arc;
+use centrode_core::model::contact::Planar;
 use centrode_core::plant::Shape;
 use centrode_core::run::{Run, Sample};
 
@@ -32,15 +33,40 @@ pub struct Robot {
     pub disks: Vec<[Flat; 2]>,
 }
 
-/// The beam's centre and radius, and the point of the backbone that it holds, mm.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Beam {
-    /// Centre.
-    pub center: Flat,
-    /// Radius.
-    pub radius: f64,
-    /// Where the backbone is held.
-    pub touches: Flat,
+/// One piece of the beam.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outline {
+    /// A circle: centre and radius, mm.
+    Round(Flat, f64),
+    /// A rectangle: its corners in order, mm.
+    Bar([Flat; 4]),
+}
+
+impl Outline {
+    /// Corners of a rectangle around it, or its own, mm.
+    fn corners(&self) -> [Flat; 4] {
+        match *self {
+            Self::Bar(corners) => corners,
+            Self::Round([x, z], r) => [[x - r, z - r], [x + r, z - r], [x + r, z + r], [x - r, z + r]],
+        }
+    }
+}
+
+/// The force of a beam that only touches.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Force {
+    /// Its arrow, from its tail to where it acts on the robot, mm.
+    pub arrow: [Flat; 2],
+    /// Its size in words.
+    pub words: String,
+}
+
+/// Length of the largest force's arrow, as part of the segment's.
+const LARGEST: f64 = 0.4;
+
+/// A point of the bending plane (m), mm.
+fn flat(at: Planar) -> Flat {
+    [at.x * MM, at.y * MM]
 }
 
 /// Everything that is drawn from one run.
@@ -50,6 +76,7 @@ pub struct Track<'a> {
     trace: &'a Trace,
     sizes: Proportions,
     projection: Projection,
+    obstacle: Option<Obstacle>,
 }
 
 impl<'a> Track<'a> {
@@ -57,7 +84,8 @@ impl<'a> Track<'a> {
     #[must_use]
     pub fn new(run: &'a Run, trace: &'a Trace) -> Self {
         let projection = Projection::of(run.commanded(0));
-        Self { run, trace, sizes: Proportions::of(run), projection }
+        let sizes = Proportions::of(run);
+        Self { run, trace, obstacle: Obstacle::of(run, &sizes), sizes, projection }
     }
 
     /// The true shape at a time.
@@ -73,6 +101,12 @@ impl<'a> Track<'a> {
         self.run.truth(place)?.held?;
         let configuration = self.run.recording.entries[place].configuration;
         Some(self.backbone(&Shape::Free(self.run.plan.segment().arc(configuration))))
+    }
+
+    /// The shape by the paper's model, while a beam that only touches holds at a time.
+    #[must_use]
+    pub fn frozen(&self, time: f64) -> Option<Vec<Flat>> {
+        obstacle::frozen(self.run, self.run.place(time)).map(|shape| self.backbone(&shape))
     }
 
     /// A point of a shape, mm.
@@ -114,17 +148,29 @@ impl<'a> Track<'a> {
         std::iter::once(0.0).chain(spacers).chain([segment.length]).map(of).collect()
     }
 
-    /// The beam, when there is one. It stands on the side that the segment bends to, against the disk's rim.
+    /// The beam, piece by piece, when there is one: on the side that the segment bends to.
     #[must_use]
-    pub fn beam(&self) -> Option<Beam> {
-        let contact = self.run.plan.contact()?;
-        let segment = self.run.plan.segment();
-        let configuration = self.run.recording.entries[0].configuration.with_bend(contact.bend);
-        let pose = Arc { length: segment.length, configuration }.pose(contact.arc_length);
-        let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
-        let radius = f64::from(self.sizes.beam) * MM;
-        let away = radius + f64::from(self.sizes.surface(contact.arc_length)) * MM;
-        Some(Beam { center: shifted(at, across, contact.side * away), radius, touches: at })
+    pub fn beam(&self) -> Vec<Outline> {
+        let Some(obstacle) = &self.obstacle else { return Vec::new() };
+        let outline = |piece| match piece {
+            Piece::Round { center, radius } => Outline::Round(flat(center), radius * MM),
+            Piece::Bar { center, half } => Outline::Bar(obstacle.corners(center, half).map(flat)),
+        };
+        obstacle.pieces().map(outline).collect()
+    }
+
+    /// Whether the segment has got away from the beam at a time.
+    #[must_use]
+    pub fn let_go(&self, time: f64) -> bool {
+        obstacle::let_go(self.run, self.run.place(time))
+    }
+
+    /// The force of the beam in a shape, while it touches it.
+    #[must_use]
+    pub fn force(&self, shape: &Shape) -> Option<Force> {
+        let push = Push::of(self.run, &self.sizes, shape)?;
+        let tail = push.at - push.along * (LARGEST * self.run.plan.segment().length * push.share);
+        Some(Force { arrow: [flat(tail), flat(push.at)], words: push.words() })
     }
 
     /// c_m in a sample, mm.
@@ -172,10 +218,7 @@ impl<'a> Track<'a> {
             let time = self.run.recording.entries[place].time;
             self.ghost(time).into_iter().flatten().for_each(&mut include);
         }
-        if let Some(Beam { center, radius, .. }) = self.beam() {
-            include(center.map(|x| x - radius));
-            include(center.map(|x| x + radius));
-        }
+        self.beam().iter().flat_map(Outline::corners).for_each(include);
         bounds
     }
 }
@@ -198,30 +241,30 @@ mod tests {
             let run = simulate(&scenario).expect("run");
             let trace = Trace::new(&run);
             let track = Track::new(&run, &trace);
-            (track.bounds(&track.loci(99.0)), track.beam().expect("beam"))
+            (track.bounds(&track.loci(99.0)), track.beam())
         };
         let (straight, turned) = (flat(0.0), flat(2.1));
+        assert!(!straight.1.is_empty() && straight.1 == turned.1);
         for i in 0..2 {
             for j in 0..2 {
                 assert!((straight.0[i][j] - turned.0[i][j]).abs() < 1e-6);
             }
-            assert!((straight.1.center[i] - turned.1.center[i]).abs() < 1e-6);
         }
     }
 
     #[test]
-    fn the_beam_touches_the_disk_rim_on_the_side_bent_to() {
+    fn the_held_shape_passes_where_the_beam_stands() {
         let run = run("paper");
         let trace = Trace::new(&run);
         let track = Track::new(&run, &trace);
-        let beam = track.beam().expect("beam");
-        let away = (beam.center[0] - beam.touches[0]).hypot(beam.center[1] - beam.touches[1]);
-        assert!((away - (f64::from(Proportions::of(&run).disk) * MM + beam.radius)).abs() < 1e-9);
-        assert!(beam.center[0] > beam.touches[0]);
-        // The held shape passes the point that the beam holds, as long as it holds.
+        let touches = flat(track.obstacle.as_ref().expect("beam").touches);
+        let Outline::Round(center, radius) = track.beam()[0] else { panic!("a round bar first") };
+        let away = (center[0] - touches[0]).hypot(center[1] - touches[1]);
+        assert!(away > f64::from(track.sizes.disk) * MM + radius && center[0] > touches[0], "beside the disk");
         for time in [5.9, 7.0, 9.5] {
             let at = track.place(&track.truth(time), 0.015);
-            assert!((at[0] - beam.touches[0]).hypot(at[1] - beam.touches[1]) < 1e-9);
+            assert!((at[0] - touches[0]).hypot(at[1] - touches[1]) < 1e-9);
+            assert_eq!((track.frozen(time), track.force(&track.truth(time))), (None, None), "a clamp is what it is");
         }
     }
 

@@ -26,7 +26,7 @@ const fn part(
     decimals: usize,
     scale: Scale,
 ) -> Control {
-    Control { key: path, of: key(of), part: Some(part), label, decimals, scale, hint: "", words: None }
+    Control { key: path, of: key(of), part: Some(part), label, decimals, scale, hint: "", words: None, only: None }
 }
 
 /// The wrench on the end disk.

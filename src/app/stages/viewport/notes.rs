@@ -6,6 +6,7 @@ use crate::app::charts::legend::{self, Entry, Form};
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::scene::{Camera, Label, Pose, Scene, Solid, arc};
+use crate::show::obstacle::only_touches;
 use centrode_core::run::Run;
 
 /// Space between the legend and the view's edges, points; in a narrow view half of it.
@@ -13,8 +14,8 @@ const MARGIN: f32 = 14.0;
 /// A view narrower than this has the legend in rows, points.
 const NARROW: f32 = 480.0;
 
-/// Writes legend and labels; `taken` is where other things stand.
-pub fn notes(ui: &Ui, rect: Rect, camera: &Camera, run: &Run, scene: &Scene, mut taken: Vec<Rect>) {
+/// Writes legend and labels of a run, with what is compared with it or without; `taken` is where other things stand.
+pub fn notes(ui: &Ui, rect: Rect, camera: &Camera, run: (&Run, bool), scene: &Scene, mut taken: Vec<Rect>) {
     let theme = Theme::of(ui);
     let view = View { rect, camera };
     taken.extend(name_all(ui, &view, &theme, run, scene));
@@ -34,7 +35,7 @@ impl View<'_> {
 }
 
 /// What the legend names: all that the run will show, so that it does not move during playback.
-fn entries(run: &Run, theme: &Theme, narrow: bool) -> Vec<Entry> {
+fn entries((run, frozen): (&Run, bool), theme: &Theme, narrow: bool) -> Vec<Entry> {
     let entry = |form, color, text| Entry { form, color, text };
     let mut entries =
         vec![entry(Form::Triangle, theme.model, "c_m model"), entry(Form::Dot, theme.sensor, "c_s sensor")];
@@ -47,6 +48,10 @@ fn entries(run: &Run, theme: &Theme, narrow: bool) -> Vec<Entry> {
     entries.push(entry(Form::Axis, theme.dim, "screw axis"));
     if run.contact_time().is_some() {
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
+        if only_touches(run) {
+            entries.extend(frozen.then(|| entry(Form::Ghost, theme.constrained, "if clamped")));
+            entries.push(entry(Form::Arrow, theme.force, "contact force"));
+        }
     }
     if !narrow {
         entries.insert(0, entry(Form::Solid, theme.robot, "robot"));
@@ -58,7 +63,7 @@ fn entries(run: &Run, theme: &Theme, narrow: bool) -> Vec<Entry> {
 }
 
 /// Paints the legend at the bottom left, unless the robot is there; gives its place.
-fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, run: &Run, scene: &Scene) -> Option<Rect> {
+fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, run: (&Run, bool), scene: &Scene) -> Option<Rect> {
     let painter = ui.painter_at(view.rect);
     let narrow = view.rect.width() < NARROW;
     let room = view.rect.shrink(if narrow { 0.5 * MARGIN } else { MARGIN });
@@ -68,7 +73,7 @@ fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, run: &Run, scene: &Scene) -
     let size = legend::size(&painter, theme, width, &entries);
     let place = Rect::from_min_size(pos2(room.left(), room.bottom() - size.y), size);
     let free = view.rect.contains_rect(place)
-        && size.y < 0.4 * view.rect.height()
+        && size.y < 0.45 * view.rect.height()
         && !bodies(scene).filter_map(|point| view.at(point)).any(|at| place.contains(at));
     free.then(|| {
         legend::legend(&painter, theme, place.min, width, &entries);
