@@ -270,7 +270,7 @@ impl ModelArgs {
             force: touching.force() * segment.bending_stiffness() / (length * length),
             slope: touching.slope(),
             above: touching.curvature_above() / length,
-            base: touching.curvature(0.0) / length,
+            base: touching.curvature_base(touched.branch().basis()) / length,
             arc_length: touching.at.place * length,
             shape: Shape::Touched(touched),
         })

@@ -1,11 +1,11 @@
 //! The paper's Table II and the simulated one.
 
 use centrode_core::run::simulate;
-use centrode_core::scenario::Scenario;
 use centrode_core::scenario::Threshold;
 use centrode_core::scenario::preset::find;
+use centrode_core::scenario::{ContactKind, Scenario};
 use centrode_core::study::Job;
-use centrode_core::study::table2::{MAX_REPEATS, Outcome, PRESETS, Table2Job};
+use centrode_core::study::table2::{MAX_REPEATS, Outcome, PRESETS, Row, Table2Job};
 
 fn preset(name: &str) -> Scenario {
     find(name).and_then(|preset| preset.scenario()).expect(name)
@@ -43,6 +43,25 @@ fn a_table_can_be_read_before_it_is_complete() {
     assert_eq!(job.rows()[..], finished(&preset("bench"), 3).rows()[..6], "repeats do not depend on their number");
     job.step();
     assert_eq!(job.rows().len(), 6);
+}
+
+#[test]
+fn beside_the_scenario_s_kind_of_contact_stands_another() {
+    let (bench, mut flat) = (preset("bench"), preset("bench"));
+    flat.contact.kind = ContactKind::Plane;
+    let (clamped, touched) = (finished(&bench, 2), finished(&flat, 2));
+    // What was missed is NaN, which equals nothing.
+    let text = |own: &[Row], other: &[Row]| format!("{own:?} {other:?}");
+    assert_eq!(text(clamped.rows(), clamped.other_rows()), text(touched.other_rows(), touched.rows()));
+    let table = clamped.table();
+    assert_eq!((table.kind, table.other_kind), (ContactKind::Clamp, ContactKind::Plane));
+    let third = &table.other[2];
+    assert!(third.found == 2 && third.detection_time.mean > table.simulated[2].detection_time.mean);
+    // A round beam keeps its radius.
+    let mut round = preset("cylinder");
+    let rows = finished(&round, 1).rows().to_vec();
+    round.contact.rounding = 0.001;
+    assert_ne!(rows, finished(&round, 1).rows());
 }
 
 #[test]
@@ -141,22 +160,22 @@ mod command {
     }
 
     #[test]
-    fn csv_holds_both_tables() {
+    fn csv_holds_all_tables() {
         let path = scratch("table2.csv");
         let output = centrode(&["table2", "--csv", path.to_str().expect("path")]);
         assert!(output.status.success());
         let text = std::fs::read_to_string(&path).expect("a file");
         std::fs::remove_file(&path).expect("removed");
         let rows: Vec<Vec<_>> = text.lines().map(|line| line.split(',').collect()).collect();
-        assert_eq!(rows.len(), 7);
+        assert_eq!(rows.len(), 10);
         assert!(rows.iter().all(|row| row.len() == rows[0].len()));
         let column = |name: &str| rows[0].iter().position(|title| *title == name).expect(name);
         let mean = rows[2][column("location_mean [m]")].parse::<f64>().expect("a number");
-        assert_eq!((rows[2][0], rows[5][0]), ("paper", "simulated"));
+        assert_eq!((rows[2][0], rows[5][0], rows[8][0]), ("paper", "simulated", "plane"));
         assert!((mean - 0.016).abs() < 1e-15, "{mean}");
         assert_eq!(rows[2][column("contact_time [s]")], "", "not known, not 0");
         let words = String::from_utf8(output.stdout).expect("UTF-8");
-        assert!(words.contains("16.00 ± 0.71") && words.contains("simulated"), "{words}");
+        assert!(words.contains("16.00 ± 0.71") && words.contains("clamp              plane"), "{words}");
     }
 
     #[test]

@@ -105,6 +105,15 @@ impl Touching {
         self.at.coefficients.iter().zip(legendre).map(|(b, p)| b * p).sum::<f64>() / self.at.place
     }
 
+    /// Curvature at the base, in 1/L: that above less what the force bends away, which loses no digits at the end of the series.
+    #[must_use]
+    pub fn curvature_base(&self, basis: &Basis) -> f64 {
+        let angles = basis.angles(&self.at.coefficients);
+        let along =
+            angles.iter().zip(&basis.weights).map(|(angle, weight)| weight * libm::cos(angle - self.force_slope));
+        self.curvature_above() - self.at.multiplier / self.at.place * along.sum::<f64>()
+    }
+
     /// Elastic energy, in EI/L.
     #[must_use]
     pub fn energy(&self) -> f64 {

@@ -7,6 +7,7 @@
 
 pub mod allowed;
 pub mod document;
+mod entry;
 pub mod quantity;
 pub mod table;
 pub mod value;

@@ -1,10 +1,13 @@
 //! The table itself, in the order of the file.
 
 use crate::scenario::keys::allowed::{Limit, NOT_NEGATIVE};
-use crate::scenario::keys::quantity::Quantity::{
-    self, Angle, AngularSpeed, Count, Force, Frequency, Length, Modulus, Moment, Ratio, Time, Word,
+use crate::scenario::keys::entry::{
+    at_most_key, below_key, between, either, key, number, one_of, threshold, vector, whole,
 };
-use crate::scenario::keys::{Access, Allowed, Key, Usual};
+use crate::scenario::keys::quantity::Quantity::{
+    Angle, AngularSpeed, Count, Force, Frequency, Length, Modulus, Moment, Ratio, Time, Word,
+};
+use crate::scenario::keys::{Access, Allowed, Key};
 use crate::scenario::plan::{LENGTHS, MAX_FORCE, MAX_MOMENT, MAX_SEED, MAX_TIME, MAX_TURN, RADII};
 use crate::scenario::{Averaging, CellErrors, ContactKind, EstimationKind, Mounting, Place, Scenario, Start, Xi1Rule};
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -32,68 +35,6 @@ pub const GROUPS: &[Group] = &[
     Group { path: "detection", sentence: "Thresholds, and when they apply." },
     Group { path: "estimation", sentence: "How a contact is placed." },
 ];
-
-macro_rules! number {
-    ($($path:ident).+) => { Access::Number(|s| Some(s.$($path).+), |s, value| s.$($path).+ = value) };
-}
-macro_rules! whole {
-    ($($path:ident).+) => { Access::Whole(|s| Some(s.$($path).+), |s, value| s.$($path).+ = value) };
-}
-macro_rules! threshold {
-    ($($path:ident).+) => { Access::Threshold(|s| s.$($path).+, |s, value| s.$($path).+ = value) };
-}
-macro_rules! vector {
-    ($($path:ident).+) => { Access::Vector(|s| &s.$($path).+, |s, value| s.$($path).+ = value) };
-}
-/// One of some words.
-macro_rules! one_of {
-    ($($path:ident).+, $all:expr) => {
-        Access::Word(
-            |s| $all.iter().position(|one| *one == s.$($path).+).unwrap_or_default(),
-            |s, i| s.$($path).+ = $all.get(i).copied().unwrap_or_default(),
-        )
-    };
-}
-/// One of two words.
-macro_rules! either {
-    ($($path:ident).+, $first:path, $second:path) => {
-        Access::Word(|s| usize::from(s.$($path).+ == $second), |s, i| s.$($path).+ = if i == 0 { $first } else { $second })
-    };
-}
-
-const fn key(path: &'static str, quantity: Quantity, allowed: Allowed, access: Access, sentence: &'static str) -> Key {
-    Key { path, quantity, allowed, sentence, illustrative: false, usual: Usual::None, instead_of: None, access }
-}
-
-impl Key {
-    const fn illustrative(self) -> Self {
-        Self { illustrative: true, ..self }
-    }
-
-    const fn usual_range(self, low: f64, high: f64) -> Self {
-        Self { usual: Usual::Range(low, high), ..self }
-    }
-
-    const fn usual_of(self, ends: fn(&Scenario) -> (f64, f64)) -> Self {
-        Self { usual: Usual::Of(ends), ..self }
-    }
-
-    const fn instead_of(self, path: &'static str, example: f64) -> Self {
-        Self { instead_of: Some((path, example)), ..self }
-    }
-}
-
-const fn between(least: f64, most: f64) -> Allowed {
-    Allowed::Range(Limit::At(least), Limit::At(most))
-}
-
-const fn at_most_key(path: &'static str) -> Allowed {
-    Allowed::Range(Limit::At(0.0), Limit::Key(path, None))
-}
-
-const fn below_key(path: &'static str) -> Allowed {
-    Allowed::Range(Limit::At(0.0), Limit::BeyondKey(path, None))
-}
 
 const DIAMETERS: Allowed = between(1e-6, 1.0);
 const MODULI: Allowed = between(1e6, 1e13);
