@@ -66,7 +66,8 @@ impl RunArgs {
             csv.finish()?;
         }
         if let (Some(mut file), Some(timeline), Some(format)) = (figure, timeline, format) {
-            let chart = signed(simulated(timeline, &plan, simulation.events()), &scenario, Page::default());
+            let chart = simulated(timeline, &plan, simulation.events(), simulation.plant_events());
+            let chart = signed(chart, &scenario, Page::default());
             draw::write(&mut file, &chart, format)?;
             file.finish()?;
         }

@@ -6,6 +6,7 @@ pub mod range;
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Panel, Role, Series, Span, Style, Vertical};
 use crate::detect::{Detection, Event, Method, Standing};
+use crate::plant::{Happening, PlantEvent};
 use crate::run::{Run, Sample};
 use crate::scenario::{Thresholds, Xi1Rule};
 
@@ -203,7 +204,21 @@ pub fn is_detection(run: &Run, event: &Event) -> bool {
 
 /// A panel over the time of a run, with its detection.
 fn over_time(run: &Run, y: Axis) -> Panel {
-    timed([0.0, end(run)], y, run.detection())
+    let mut panel = timed([0.0, end(run)], y, run.detection());
+    panel.verticals.extend(let_go(run.plant_events()));
+    panel
+}
+
+/// Where a segment loses its beam without the motion taking it off.
+pub(super) fn let_go(plant: &[PlantEvent]) -> impl Iterator<Item = Vertical> {
+    plant.iter().filter_map(|event| {
+        let name = match event.what {
+            Happening::Snapped => "snaps off",
+            Happening::SlidOff => "slides off",
+            Happening::Met | Happening::Opened => return None,
+        };
+        Some(Vertical { name, x: event.time, role: Role::Contact })
+    })
 }
 
 /// A panel over times (s), with a detection.

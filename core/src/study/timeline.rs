@@ -3,11 +3,12 @@
 //! It looks as the live plots do, but takes samples one by one and keeps few points of each curve, so that a long run needs no more
 //! memory than a short one.
 
-use super::course::{Curve, Measure, angles, bent, curves, held, marks, measure, timed, unarmed};
+use super::course::{Curve, Measure, angles, bent, curves, held, let_go, marks, measure, timed, unarmed};
 use super::figure::thin::Thinner;
 use super::figure::words;
 use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::detect::{Detection, Event, Method, Standing};
+use crate::plant::PlantEvent;
 use crate::run::{Run, Sample};
 use crate::scenario::{Plan, Scenario};
 
@@ -156,13 +157,13 @@ pub fn chart(run: &Run) -> Chart {
     run.samples().for_each(|sample| timeline.push(&sample));
     match run.is_recorded() {
         true => timeline.finish(TITLE.into(), judged(run.plan.scenario()), run.events()),
-        false => simulated(timeline, &run.plan, run.events()),
+        false => simulated(timeline, &run.plan, run.events(), run.plant_events()),
     }
 }
 
 /// The chart of a run that has been simulated sample by sample.
 #[must_use]
-pub fn simulated(timeline: Timeline, plan: &Plan, events: &[Event]) -> Chart {
+pub fn simulated(timeline: Timeline, plan: &Plan, events: &[Event], plant: &[PlantEvent]) -> Chart {
     let scenario = plan.scenario();
     let made = [
         words::robot(scenario),
@@ -173,7 +174,9 @@ pub fn simulated(timeline: Timeline, plan: &Plan, events: &[Event]) -> Chart {
         words::thresholds(scenario),
         words::seed(scenario, 1),
     ];
-    timeline.finish(TITLE.into(), words::caption(&made), events)
+    let mut chart = timeline.finish(TITLE.into(), words::caption(&made), events);
+    chart.panels.iter_mut().for_each(|panel| panel.verticals.extend(let_go(plant)));
+    chart
 }
 
 /// What a log was judged by, in words.
@@ -199,7 +202,7 @@ mod tests {
             for sample in simulation.by_ref() {
                 timeline.push(&sample);
             }
-            let streamed = simulated(timeline, &plan, simulation.events());
+            let streamed = simulated(timeline, &plan, simulation.events(), simulation.plant_events());
             let kept = chart(&simulate(&scenario).expect("possible"));
             // Gaps are NaN, which equals nothing.
             assert_eq!(format!("{streamed:?}"), format!("{kept:?}"), "{}", preset.name);

@@ -105,7 +105,7 @@ pub static GROUPS: &[Group] = &[
     Group { name: "Contact", folded: false, controls: CONTACT, choices: CONTACT_CHOICES, note: "" },
     Group { name: "Sensors", folded: false, controls: SENSORS, choices: &[], note: "" },
     Group { name: "Filter", folded: false, controls: FILTER, choices: &[], note: "" },
-    Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: forces::XI1_CHOICES, note: "" },
+    Group { name: "Thresholds", folded: false, controls: THRESHOLDS, choices: forces::CHOICES, note: "" },
     Group { name: "Motion", folded: true, controls: MOTION, choices: &[], note: "" },
     Group { name: "Robot", folded: true, controls: ROBOT, choices: &[], note: "" },
     Group { name: "Tracker", folded: true, controls: DEVICES, choices: DEVICE_CHOICES, note: "" },

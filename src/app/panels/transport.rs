@@ -14,7 +14,7 @@ use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::slider::{self, Slider};
 use crate::app::widgets::text;
-use crate::app::words::story::Phase;
+use crate::app::words::story::{Phase, let_go};
 use centrode_core::run::Run;
 
 /// Height in one row, points.
@@ -133,6 +133,11 @@ fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>
         let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
         painter.add(Shape::convex_polygon(points, theme.obstacle, Stroke::NONE));
     }
+    if let Some((_, time)) = let_go(run) {
+        let (x, top) = (at(time), y + 6.0);
+        let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
+        painter.add(Shape::closed_line(points, Stroke::new(1.5, theme.obstacle)));
+    }
     if let Some(detection) = run.detection() {
         let center = pos2(at(detection.time), y - 10.0);
         let points = [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)].map(|v| center + v).to_vec();
@@ -149,6 +154,9 @@ fn marks(run: &Run) -> String {
     let mut said = format!("Armed from {} s", number(run.plan.scenario().detection.armed_from, 2));
     if let Some(contact) = run.contact_time() {
         said += &format!(" · contact at {} s", number(contact, 3));
+    }
+    if let Some((how, time)) = let_go(run) {
+        said += &format!(" · {how} at {} s", number(time, 3));
     }
     if let Some(detection) = run.detection() {
         let what = match Phase::at(run, detection.time) {

@@ -2,8 +2,9 @@
 
 use crate::app::charts::notation::number;
 use centrode_core::detect::{Event, Method};
+use centrode_core::plant::Happening;
 use centrode_core::run::Run;
-use centrode_core::scenario::Place;
+use centrode_core::scenario::{ContactKind, Place};
 
 /// What is known at the cursor.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,11 +63,33 @@ pub struct Figure {
 
 /// Where the beam is, with its preposition.
 fn place(run: &Run) -> String {
-    match run.plan.scenario().contact.place {
+    let contact = &run.plan.scenario().contact;
+    let place = match contact.place {
         Place::Disk(disk) => format!("on disk {disk}"),
         Place::ArcLength(s) => format!("at {} mm", number(s * 1e3, 1)),
         Place::Nowhere => "nowhere".into(),
+    };
+    match contact.kind {
+        ContactKind::Clamp => place,
+        ContactKind::Plane => format!("{place} with a flat beam"),
+        ContactKind::Cylinder => format!("{place} with a round beam"),
     }
+}
+
+/// How and when the segment lost the beam without the motion taking it off; none while it does not.
+#[must_use]
+pub fn let_go(run: &Run) -> Option<(&'static str, f64)> {
+    run.plant_events().iter().find_map(|event| match event.what {
+        Happening::Snapped => Some(("snaps off", event.time)),
+        Happening::SlidOff => Some(("slides off", event.time)),
+        Happening::Met | Happening::Opened => None,
+    })
+}
+
+/// The same as a sentence.
+fn lost(run: &Run) -> String {
+    let told = |(how, time)| format!(" The segment {how} at {} s and is free from then on.", number(time, 3));
+    let_go(run).map_or_else(String::new, told)
 }
 
 fn seconds(duration: f64) -> String {
@@ -176,13 +199,13 @@ fn loaded_by(run: &Run, time: f64) -> bool {
 /// The run in one sentence.
 #[must_use]
 pub fn sentence(run: &Run) -> String {
-    centrode(run)
+    centrode(run) + &lost(run)
 }
 
 /// The run in words: both methods.
 #[must_use]
 pub fn words(run: &Run) -> String {
-    format!("{} {}", centrode(run), joint_forces(run))
+    format!("{}{} {}", centrode(run), lost(run), joint_forces(run))
 }
 
 /// The run in figures.

@@ -89,7 +89,7 @@ pub fn chart(table: &Table2, estimates: &[Estimate]) -> Chart {
     panel.series.push(Series::new("true place of the disk", Role::Contact, Style::Heavy, truths));
     for (source, style) in Source::ALL.into_iter().zip([Style::Diamonds, Style::Dots, Style::Triangles]) {
         let points = estimates.iter().filter(|estimate| estimate.source == source).map(|estimate| estimate.at);
-        let series = Series::new(&source.name(table), Role::Detection, style, points.collect());
+        let series = Series::new(source.name(table), Role::Detection, style, points.collect());
         panel.series.push(Series { every: true, ..series });
     }
     let mean = |(lane, disk): (usize, &Disk), lift: f64| {

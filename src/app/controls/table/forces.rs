@@ -41,10 +41,13 @@ pub const LOAD: &[Control] = &[
     row("load.finish", "Full load from", 2, Linear(0.05)),
 ];
 
-/// What ξ1 is.
-pub const XI1_CHOICES: &[Choice] = &[Choice {
-    of: key("detection.xi1_rule"),
-    label: "ξ1 is",
-    hint: "Both are drawn; the one that judges is solid.",
-    options: &["constant", "follows shape"],
-}];
+/// What ξ1 is, and what Eq. 24 takes the contact to be.
+pub const CHOICES: &[Choice] = &[
+    Choice {
+        of: key("detection.xi1_rule"),
+        label: "ξ1 is",
+        hint: "Both are drawn; the one that judges is solid.",
+        options: &["constant", "follows shape"],
+    },
+    Choice { of: key("estimation.kind"), label: "Located as", hint: "", options: &["clamp", "plane", "simulated"] },
+];
