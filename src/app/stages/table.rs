@@ -71,25 +71,28 @@ pub fn table(
         });
         let said = "± is the standard deviation over repeats. Contacts are those of the presets disk-1, bench and disk-3. The paper does \
             not say when contact began nor in how many repeats it was missed: each of its rows counts as found.";
-        let said = |width: f32| {
-            let mut said = job(said, 12.0, theme.dim);
-            said.wrap.max_width = width;
-            said
+        let mut said = job(said, 12.0, theme.dim);
+        said.wrap.max_width = ui.available_width();
+        // The picture has what tables and words leave.
+        let end = ui.min_rect().top() + rect.height() - ui.painter().layout_job(said.clone()).size().y - 16.0;
+        let mut picture = |ui: &mut Ui| {
+            let height = (end - ui.cursor().top()).max(estimates::LEAST);
+            let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
+            estimates::estimates(ui, place, (shown, rows, version), kept);
         };
-        let wide = rect.width() > BESIDE;
-        if wide {
+        if rect.width() > BESIDE {
             ui.horizontal_top(|ui| {
                 let width = 0.5 * (ui.available_width() - 40.0);
-                let column = |ui: &mut Ui, show: &dyn Fn(&mut Ui)| {
+                let column = |ui: &mut Ui, show: &mut dyn FnMut(&mut Ui)| {
                     ui.allocate_ui_with_layout(vec2(width, 0.0), egui::Layout::top_down(Align::Min), |ui| show(ui));
                 };
-                column(ui, &|ui| {
+                column(ui, &mut |ui| {
                     block(ui, paper, width, &theme);
                     ui.add_space(14.0);
-                    ui.add(Label::new(said(width)).wrap());
+                    picture(ui);
                 });
                 ui.add_space(32.0);
-                column(ui, &|ui| {
+                column(ui, &mut |ui| {
                     block(ui, ours, width, &theme);
                     ui.add_space(14.0);
                     block(ui, others, width, &theme);
@@ -100,19 +103,10 @@ pub fn table(
                 block(ui, part, ui.available_width(), &theme);
                 ui.add_space(14.0);
             }
+            picture(ui);
         }
-        ui.add_space(16.0);
-        let below = (!wide).then(|| said(ui.available_width()));
-        let words = below.clone().map_or(0.0, |said| ui.painter().layout_job(said).size().y + 8.0);
-        // The picture has what the words leave.
-        let used = ui.cursor().top() - ui.min_rect().top() + words + 8.0;
-        let height = (rect.height() - used).max(estimates::LEAST);
-        let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
-        estimates::estimates(ui, place, (shown, rows, version), kept);
-        if let Some(said) = below {
-            ui.add_space(8.0);
-            ui.add(Label::new(said).wrap());
-        }
+        ui.add_space(8.0);
+        ui.add(Label::new(said).wrap());
     });
 }
 
