@@ -96,12 +96,10 @@ impl<'a> Plant<'a> {
     #[must_use]
     pub fn shape(&self, configuration: Configuration) -> Shape {
         let length = self.plan.segment().length;
-        match self.holding(&configuration) {
-            Some(PlannedContact { touch: Some(branch), .. }) => {
-                Shape::Touched(Touched::new(length, std::sync::Arc::clone(branch), configuration))
-            }
-            Some(contact) => Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration)),
-            _ => Shape::Free(Arc { length, configuration }),
+        let Some(contact) = self.holding(&configuration) else { return Shape::Free(Arc { length, configuration }) };
+        match contact.branch() {
+            Some(branch) => Shape::Touched(Touched::new(length, std::sync::Arc::clone(branch), configuration)),
+            None => Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration)),
         }
     }
 
@@ -149,16 +147,19 @@ pub fn moved_part(
     contact: Option<&PlannedContact>,
     configuration: Configuration,
 ) -> (Segment, Configuration) {
-    match contact {
-        Some(PlannedContact { touch: Some(branch), .. }) if branch.holds_at(configuration.bend()) => {
+    let Some(contact) = contact.filter(|contact| contact.holds_at(configuration.bend())) else {
+        return (*segment, configuration);
+    };
+    let length = segment.length;
+    match contact.branch() {
+        Some(branch) => {
             let (bend, place) = branch.above(configuration.bend());
-            (segment.shortened(segment.length * (1.0 - place)), configuration.with_bend(bend))
+            (segment.shortened(length * (1.0 - place)), configuration.with_bend(bend))
         }
-        Some(contact) if contact.holds_at(configuration.bend()) => {
-            let share = contact.arc_length / segment.length;
-            let upper = segment.shortened(segment.length - contact.arc_length);
+        None => {
+            let share = contact.arc_length / length;
+            let upper = segment.shortened(length - contact.arc_length);
             (upper, configuration.with_bend(configuration.bend() - contact.bend * share))
         }
-        _ => (*segment, configuration),
     }
 }

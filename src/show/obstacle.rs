@@ -5,7 +5,7 @@
 
 use super::Proportions;
 use centrode_core::model::contact::Planar;
-use centrode_core::model::contact::branch::{Branch, Surface};
+use centrode_core::model::contact::branch::{Surface, Touch};
 use centrode_core::model::{Arc, Configuration, Constrained};
 use centrode_core::plant::Shape;
 use centrode_core::run::Run;
@@ -67,7 +67,7 @@ impl Obstacle {
         let arm = |distance: f64, below: f64| {
             (away(surface + distance) - tangent(slope) * (below * f64::from(sizes.disk)), ARM * beam)
         };
-        let (bar, fittings) = match contact.touch.as_deref().map(Branch::surface) {
+        let (bar, fittings) = match contact.touch.as_deref().map(Touch::surface) {
             None => {
                 // The jaws hold the rim between them, clear of the backbones.
                 let [gap, thick] = [0.52, 1.1].map(|share| share * f64::from(sizes.thickness()));
@@ -110,7 +110,7 @@ impl Obstacle {
 /// beyond that is drawn as thin as a backbone.
 fn envelope(contact: &PlannedContact, sizes: &Proportions, length: f64) -> f64 {
     let side = f64::from(sizes.surface(contact.arc_length));
-    match contact.touch.as_deref().map(Branch::surface) {
+    match contact.touch.as_deref().map(Touch::surface) {
         Some(Surface::Cylinder { rounding }) => side.min(rounding * length - f64::from(sizes.thin())),
         _ => side,
     }
@@ -168,7 +168,7 @@ pub fn only_touches(run: &Run) -> bool {
 #[must_use]
 pub fn let_go(run: &Run, place: usize) -> bool {
     let ended = |contact: &PlannedContact| {
-        let (last, _) = contact.touch.as_deref()?.ending()?;
+        let (last, _) = contact.branch()?.ending()?;
         Some(contact.side * (run.commanded(place).bend() - last) > 0.0)
     };
     run.plan.contact().and_then(ended).unwrap_or(false)

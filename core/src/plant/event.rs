@@ -72,7 +72,7 @@ impl Watch {
 
 /// How a contact ended that holds no more at a bend (rad), and at which bend.
 fn left(contact: &PlannedContact, bend: f64) -> (Happening, f64) {
-    match contact.touch.as_ref().and_then(|branch| branch.ending()) {
+    match contact.branch().and_then(|branch| branch.ending()) {
         Some((at, how)) if contact.side * (bend - at) > 0.0 => match how {
             Ending::Snaps => (Happening::Snapped, at),
             Ending::SlidesOff => (Happening::SlidOff, at),

@@ -3,7 +3,7 @@
 use crate::model::Segment;
 use crate::model::configuration::bend_from_theta_l;
 use crate::model::contact::Meeting;
-use crate::model::contact::branch::{Branch, Surface};
+use crate::model::contact::branch::{Branch, Surface, Touch};
 use crate::scenario::keys::Allowed;
 use crate::scenario::keys::allowed::{Limit, bend_refused};
 use crate::scenario::keys::{KEYS, Quantity, Value};
@@ -42,8 +42,8 @@ pub struct PlannedContact {
     pub bend: f64,
     /// +1 when "beyond" means a larger bend, −1 when it means a smaller one.
     pub side: f64,
-    /// The shapes against a beam that only touches; none for a clamp.
-    pub touch: Option<Arc<Branch>>,
+    /// The shapes against a beam that only touches, for all copies of the plan; none for a clamp.
+    pub touch: Option<Arc<Touch>>,
 }
 
 impl PlannedContact {
@@ -51,15 +51,10 @@ impl PlannedContact {
     /// kind. Its shapes are sketched ([`Branch::sketched`]): one of many on a map.
     #[must_use]
     pub fn beyond(arc_length: f64, bend: f64, scenario: &Scenario) -> Self {
-        Self::new((arc_length, bend), side_beyond(bend, &scenario.motion), scenario, Branch::sketched)
+        Self::new((arc_length, bend), side_beyond(bend, &scenario.motion), scenario, true)
     }
 
-    fn new(
-        (arc_length, bend): (f64, f64),
-        side: f64,
-        scenario: &Scenario,
-        follow: fn(Meeting, Surface, f64) -> Branch,
-    ) -> Self {
+    fn new((arc_length, bend): (f64, f64), side: f64, scenario: &Scenario, sketched: bool) -> Self {
         let length = scenario.robot.length;
         let surface = match scenario.contact.kind {
             ContactKind::Clamp => None,
@@ -70,15 +65,21 @@ impl PlannedContact {
             let motion = &scenario.motion;
             let ends = [motion.theta_start, motion.theta_end].map(|theta_l| side * bend_from_theta_l(theta_l));
             let last = side * ends[0].max(ends[1]).max(side * bend);
-            Arc::new(follow(Meeting { place: arc_length / length, bend, side }, surface, last))
+            Arc::new(Touch::new(Meeting { place: arc_length / length, bend, side }, surface, last, sketched))
         });
         Self { arc_length, bend, side, touch }
+    }
+
+    /// The shapes against a beam that only touches; none for a clamp.
+    #[must_use]
+    pub fn branch(&self) -> Option<&Arc<Branch>> {
+        self.touch.as_deref().map(Touch::branch)
     }
 
     /// Whether the beam holds the backbone at this commanded bend (rad).
     #[must_use]
     pub fn holds_at(&self, bend: f64) -> bool {
-        match &self.touch {
+        match self.branch() {
             None => self.side * (bend - self.bend) > 0.0,
             Some(branch) => branch.holds_at(bend),
         }
@@ -234,7 +235,7 @@ fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, Scenar
         let allowed = Allowed::Range(Limit::At(0.0), Limit::Beyond(length / inside));
         return Err(Refused::error("contact.rounding", Quantity::Length, Value::Number(rounding), allowed));
     }
-    Ok(Some(PlannedContact::new((arc_length, bend), side, scenario, Branch::new)))
+    Ok(Some(PlannedContact::new((arc_length, bend), side, scenario, false)))
 }
 
 /// The side on which a bend (rad) lies: away from straight, or where the motion goes.

@@ -9,6 +9,7 @@ use super::ritz::Basis;
 use super::{Meeting, Planar, Touching, Unknowns, cylinder, plane};
 use libm::cos;
 use std::f64::consts::PI;
+use std::sync::{Arc, OnceLock};
 
 /// What the segment touches.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,6 +59,46 @@ const STRIDE: f64 = 0.1;
 const FINE: f64 = 1e-10;
 /// A shape further from where the last one led, rad per coefficient, is on another branch.
 const LEAP: f64 = 0.2;
+
+/// A contact whose branch is followed once somebody asks for it: to know that a contact is possible costs nothing.
+#[derive(Debug, Clone)]
+pub struct Touch {
+    meeting: Meeting,
+    surface: Surface,
+    last: f64,
+    sketched: bool,
+    branch: OnceLock<Arc<Branch>>,
+}
+
+impl Touch {
+    /// A contact to the bend `last` (rad), whose shapes are exact or [sketched](Branch::sketched).
+    #[must_use]
+    pub fn new(meeting: Meeting, surface: Surface, last: f64, sketched: bool) -> Self {
+        Self { meeting, surface, last, sketched, branch: OnceLock::new() }
+    }
+
+    /// Its shapes.
+    #[must_use]
+    pub fn branch(&self) -> &Arc<Branch> {
+        self.branch.get_or_init(|| {
+            let follow = if self.sketched { Branch::sketched } else { Branch::new };
+            Arc::new(follow(self.meeting, self.surface, self.last))
+        })
+    }
+
+    /// What the segment touches.
+    #[must_use]
+    pub fn surface(&self) -> Surface {
+        self.surface
+    }
+}
+
+impl PartialEq for Touch {
+    fn eq(&self, other: &Self) -> bool {
+        let asked = |touch: &Self| (touch.meeting, touch.surface, touch.last, touch.sketched);
+        asked(self) == asked(other)
+    }
+}
 
 /// The shapes of one contact over the bends at which it holds.
 #[derive(Debug, Clone, PartialEq)]

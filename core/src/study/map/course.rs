@@ -169,7 +169,7 @@ impl Course {
             if !contact.holds_at(bend) {
                 return arc_end(self.length, bend);
             }
-            if let Some(branch) = &contact.touch {
+            if let Some(branch) = contact.branch() {
                 let at = branch.tip(bend).position * self.length;
                 return Point { x: at.x, z: at.y };
             }
