@@ -334,6 +334,14 @@ fn json_messages_are_read_and_topics_are_chosen() {
         message.contains("/tip (geometry_msgs/TransformStamped, 1 messages)") && message.contains("--topic"),
         "{message}"
     );
+    let one = json_mcap(&[
+        ("/tip", "geometry_msgs/TransformStamped", transform.into()),
+        ("/joints", "sensor_msgs/msg/JointState", joints.into()),
+        ("/others", "sensor_msgs/msg/JointState", joints.into()),
+    ]);
+    let joints_alone = Options { topics: vec!["/joints".into()], ..Options::default() };
+    let log = Log::read("x.mcap", one, &joints_alone).expect("a log");
+    assert_eq!((log.readings.len(), log.joints.len()), (1, 1), "a topic of joints leaves the only pose");
     assert!(read(&["/none"]).expect_err("none").to_string().contains("no topic \"/none\""));
     let log = read(&["/tip"]).expect("a log");
     assert_eq!(log.readings.values[0][..3], [0.0, 0.0, 0.03]);

@@ -41,6 +41,8 @@ pub struct McapReader {
     schemas: BTreeMap<u16, String>,
     channels: BTreeMap<u16, Channel>,
     wanted: Vec<String>,
+    /// Whether one of those tells where the marker is: then no other pose is read.
+    pose_chosen: bool,
     messages: u64,
     /// What stamps are counted from, ns.
     origin: Option<i64>,
@@ -73,6 +75,7 @@ impl McapReader {
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
             wanted: options.topics.clone(),
+            pose_chosen: false,
             messages: 0,
             origin: None,
             cut: false,
@@ -158,6 +161,7 @@ impl McapReader {
                     ids.zip(names).ok_or_else(|| LogError::line(self.messages, "a channel is cut"))?;
                 let schema = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let kind = Kind::of(&schema).zip(Encoding::of(&encoding));
+                self.pose_chosen |= kind.is_some_and(|(kind, _)| kind.is_pose()) && self.wanted.contains(&name);
                 let topic = Topic { name, schema, encoding, messages: 0 };
                 // Channels are often repeated.
                 let log = Log::new(Format::Mcap, Vec::new());
@@ -177,8 +181,7 @@ impl McapReader {
         let channel = self.channels.get_mut(&id).ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
         channel.topic.messages += 1;
         let Some((kind, encoding)) = channel.kind else { return Ok(()) };
-        let wanted = &self.wanted;
-        if !wanted.is_empty() && !wanted.contains(&channel.topic.name) && kind.is_pose() {
+        if self.pose_chosen && kind.is_pose() && !self.wanted.contains(&channel.topic.name) {
             return Ok(());
         }
         let refuse = |what: String| LogError {
