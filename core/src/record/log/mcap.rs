@@ -39,7 +39,10 @@ pub struct McapReader {
     chunk: Vec<u8>,
     within: usize,
     schemas: BTreeMap<u16, String>,
-    channels: BTreeMap<u16, Channel>,
+    channels: Vec<Channel>,
+    /// Places of channels by number; those of one topic, schema and encoding are one, as when two programs publish it.
+    places: BTreeMap<u16, usize>,
+    known: BTreeMap<[String; 3], usize>,
     wanted: Vec<String>,
     /// Whether one of those tells where the marker is: then no other pose is read.
     pose_chosen: bool,
@@ -73,7 +76,9 @@ impl McapReader {
             chunk: Vec::new(),
             within: 0,
             schemas: BTreeMap::new(),
-            channels: BTreeMap::new(),
+            channels: Vec::new(),
+            places: BTreeMap::new(),
+            known: BTreeMap::new(),
             wanted: options.topics.clone(),
             pose_chosen: false,
             messages: 0,
@@ -84,7 +89,7 @@ impl McapReader {
 
     /// The topics seen so far.
     pub fn topics(&self) -> impl Iterator<Item = &Topic> {
-        self.channels.values().map(|channel| &channel.topic)
+        self.channels.iter().map(|channel| &channel.topic)
     }
 
     /// Reads at most `count` more records.
@@ -162,10 +167,15 @@ impl McapReader {
                 let schema = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let kind = Kind::of(&schema).zip(Encoding::of(&encoding));
                 self.pose_chosen |= kind.is_some_and(|(kind, _)| kind.is_pose()) && self.wanted.contains(&name);
-                let topic = Topic { name, schema, encoding, messages: 0 };
+                let place = *self.known.entry([name, schema, encoding]).or_insert_with_key(|[name, schema, encoding]| {
+                    let [name, schema, encoding] = [name, schema, encoding].map(String::clone);
+                    let topic = Topic { name, schema, encoding, messages: 0 };
+                    let log = Log::new(Format::Mcap, Vec::new());
+                    self.channels.push(Channel { topic, kind, clock: Clock::default(), log });
+                    self.channels.len() - 1
+                });
                 // Channels are often repeated.
-                let log = Log::new(Format::Mcap, Vec::new());
-                self.channels.entry(id).or_insert(Channel { topic, kind, clock: Clock::default(), log });
+                self.places.entry(id).or_insert(place);
             }
             op::MESSAGE => return self.message(fields),
             _ => {}
@@ -178,7 +188,8 @@ impl McapReader {
         let number = self.messages;
         let head = fields.u16().zip(fields.u32()).zip(fields.u64().zip(fields.u64()));
         let ((id, _), (logged, _)) = head.ok_or_else(|| LogError::line(number, "a message is cut"))?;
-        let channel = self.channels.get_mut(&id).ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
+        let channel = self.places.get(&id).and_then(|place| self.channels.get_mut(*place));
+        let channel = channel.ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
         channel.topic.messages += 1;
         let Some((kind, encoding)) = channel.kind else { return Ok(()) };
         if self.pose_chosen && kind.is_pose() && !self.wanted.contains(&channel.topic.name) {
@@ -233,10 +244,10 @@ impl McapReader {
                 let Topic { name, schema, messages, .. } = &channel.topic;
                 format!("{name} ({schema}, {messages} messages)")
             };
-            channels.values().filter(|channel| kept(&channel.topic)).map(told).collect::<Vec<_>>().join(", ")
+            channels.iter().filter(|channel| kept(&channel.topic)).map(told).collect::<Vec<_>>().join(", ")
         };
         for name in &wanted {
-            if !channels.values().any(|channel| channel.topic.name == *name) {
+            if !channels.iter().any(|channel| channel.topic.name == *name) {
                 let what = format!("there is no topic {}", quoted(name.as_bytes()));
                 return Err(LogError { allowed: listed(&|_| true), ..LogError::file(what) });
             }
@@ -255,23 +266,23 @@ impl McapReader {
             ("the load cells", |kind| kind == Kind::Wrench),
         ];
         for (what, of) in roles {
-            let mut fitting: Vec<u16> = channels
+            let mut fitting: Vec<&Channel> = channels
                 .iter()
-                .filter(|(_, channel)| channel.kind.is_some_and(|(kind, _)| of(kind)) && channel.topic.messages > 0)
-                .map(|(id, _)| *id)
+                .filter(|channel| channel.kind.is_some_and(|(kind, _)| of(kind)) && channel.topic.messages > 0)
                 .collect();
-            if fitting.iter().any(|id| wanted.contains(&channels[id].topic.name)) {
-                fitting.retain(|id| wanted.contains(&channels[id].topic.name));
+            let chosen = |channel: &&Channel| wanted.contains(&channel.topic.name);
+            if fitting.iter().any(chosen) {
+                fitting.retain(chosen);
             }
             if fitting.len() > 1 {
-                let names: Vec<&String> = fitting.iter().map(|id| &channels[id].topic.name).collect();
+                let names: Vec<&String> = fitting.iter().map(|channel| &channel.topic.name).collect();
                 let what = format!("several topics could be {what}");
                 return Err(LogError {
                     allowed: listed(&|topic| names.contains(&&topic.name)),
                     ..LogError::file(what).or(": choose one with --topic")
                 });
             }
-            let Some(channel) = fitting.first().and_then(|id| channels.get(id)) else { continue };
+            let Some(channel) = fitting.first() else { continue };
             let part = &channel.log;
             for (place, role) in roles_of(part).into_iter().enumerate() {
                 let header = format!("{} {}", channel.topic.name, role.key());
@@ -304,7 +315,7 @@ impl McapReader {
             }));
         }
         let unread = |topic: &Topic| Kind::of(&topic.schema).is_some() && Encoding::of(&topic.encoding).is_none();
-        if channels.values().any(|channel| unread(&channel.topic)) {
+        if channels.iter().any(|channel| unread(&channel.topic)) {
             log.report.notes.push(format!("not read, neither CDR nor JSON: {}", listed(&unread)));
         }
         log.columns = columns;
