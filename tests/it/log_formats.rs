@@ -372,6 +372,16 @@ fn a_topic_with_two_publishers_is_one() {
 }
 
 #[test]
+fn the_least_stamp_that_there_is_does_no_harm() {
+    let text = b"time [ns],x,y,z\n-9223372036854775808,0,0,0\n0,0,0,0\n".to_vec();
+    assert!(Log::read("x.csv", text, &Options::default()).is_ok_and(|log| log.readings.len() == 2));
+    let pose = r#"{"header":{"stamp":{"sec":-9223372036,"nanosec":-854775808}},
+        "pose":{"position":{"x":0,"y":0,"z":0},"orientation":{"x":0,"y":0,"z":0,"w":1}}}"#;
+    let bytes = json_mcap(&[("/tip", "geometry_msgs/PoseStamped", pose.into())]);
+    assert!(Log::read("x.mcap", bytes, &Options::default()).is_ok_and(|log| log.readings.len() == 1));
+}
+
+#[test]
 fn a_log_of_the_library_is_the_log_of_the_command() {
     let log = Scratch::new("bench.csv", b"");
     assert!(centrode(&["run", "--preset", "bench", "--log", log.path()]).status.success());

@@ -204,8 +204,8 @@ impl McapReader {
         let (stamp, content) = read(kind, encoding, fields.0).map_err(refuse)?;
         let stamp = stamp.unwrap_or(logged.cast_signed());
         // Doubles of seconds since 1970 would lose the nanoseconds.
-        const LONG: i64 = 1_000_000 * 1_000_000_000;
-        let origin = *self.origin.get_or_insert(if stamp.abs() > LONG { stamp } else { 0 });
+        const LONG: u64 = 1_000_000 * 1_000_000_000;
+        let origin = *self.origin.get_or_insert(if stamp.unsigned_abs() > LONG { stamp } else { 0 });
         let time = stamp.saturating_sub(origin) as f64 / 1e9;
         let numbers = match &content {
             Content::Pose(position, quaternion) => [&position[..], &quaternion[..]].concat(),
