@@ -117,10 +117,6 @@ impl Sharing {
         self.said.as_ref().map(|(text, _)| text.as_str())
     }
 
-    pub(super) fn push(&mut self, effect: Effect) {
-        self.effects.push(effect);
-    }
-
     pub(super) fn say(&mut self, text: impl Into<String>) {
         self.said = Some((text.into(), None));
     }
@@ -154,11 +150,6 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
     }
 }
 
-/// Whether the page can run a scenario; if not, why, by key.
-fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
-    memo::check(scenario)
-}
-
 impl App {
     /// What the page wants of its surroundings since this was last asked.
     pub fn take_effects(&mut self) -> Vec<Effect> {
@@ -174,7 +165,7 @@ impl App {
     /// Goes where a link says (an address, or its fragment): at the start, back, forward, or as the person edited it.
     /// What cannot be read is told.
     pub fn go(&mut self, link: &str) {
-        let (read, broken) = Link::read_if(link, check);
+        let (read, broken) = Link::read_if(link, memo::check);
         self.load_link(&read);
         if let Some(time) = read.page.time {
             self.state.time = time;
@@ -306,7 +297,7 @@ impl App {
             Share::Save => {
                 let name = format!("centrode-{}.toml", self.state.preset);
                 let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
-                self.sharing.effects.push(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
+                self.sharing.hand_out(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
             Share::OwnPage => match self
                 .link()
@@ -316,8 +307,8 @@ impl App {
                 Ok(address) => ctx.open_url(egui::OpenUrl::new_tab(address)),
                 Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
             },
-            Share::Open => self.sharing.effects.push(Effect::Choose),
-            Share::OpenLog => self.sharing.effects.push(Effect::ChooseLog),
+            Share::Open => self.sharing.hand_out(Effect::Choose),
+            Share::OpenLog => self.sharing.hand_out(Effect::ChooseLog),
         }
     }
 

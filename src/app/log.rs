@@ -106,7 +106,7 @@ impl App {
             }
         }
         if let Some(number) = self.logs.desk.wanted() {
-            self.sharing.push(Effect::Fetch(number));
+            self.sharing.hand_out(Effect::Fetch(number));
         }
         self.logs.desk.is_busy()
     }
@@ -142,7 +142,7 @@ impl App {
             }
             LogWish::Edit(edit) => {
                 if edit == Edit::Second {
-                    self.sharing.push(Effect::ChooseLog);
+                    self.sharing.hand_out(Effect::ChooseLog);
                 }
                 if let Some(form) = &mut self.logs.form {
                     form.edit(edit);

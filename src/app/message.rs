@@ -129,7 +129,7 @@ impl App {
     }
 
     fn post(&mut self, message: Map<String, Json>) {
-        self.sharing.effects.push(Effect::Post(Json::Object(message).to_string()));
+        self.sharing.hand_out(Effect::Post(Json::Object(message).to_string()));
     }
 
     /// Does what is asked, and gives what was asked for by key.

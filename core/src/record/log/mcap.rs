@@ -189,14 +189,15 @@ impl McapReader {
         let head = fields.u16().zip(fields.u32()).zip(fields.u64().zip(fields.u64()));
         let ((id, _), (logged, _)) = head.ok_or_else(|| LogError::line(number, "a message is cut"))?;
         let channel = self.places.get(&id).and_then(|place| self.channels.get_mut(*place));
-        let channel = channel.ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
-        channel.topic.messages += 1;
-        let Some((kind, encoding)) = channel.kind else { return Ok(()) };
-        if self.pose_chosen && kind.is_pose() && !self.wanted.contains(&channel.topic.name) {
+        let Channel { topic, kind, clock, log } =
+            channel.ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
+        topic.messages += 1;
+        let Some((kind, encoding)) = *kind else { return Ok(()) };
+        if self.pose_chosen && kind.is_pose() && !self.wanted.contains(&topic.name) {
             return Ok(());
         }
         let refuse = |what: String| LogError {
-            place: Place { line: Some(number), column: None, name: channel.topic.name.clone() },
+            place: Place { line: Some(number), column: None, name: topic.name.clone() },
             what: format!("the message {what}"),
             allowed: String::new(),
             way: "".into(),
@@ -215,19 +216,17 @@ impl McapReader {
         if let Some(number) = numbers.iter().find(|number| number.abs() > Dimension::Length.most()) {
             return Err(refuse(format!("holds {number}, which is far too large")));
         }
-        channel.log.report.rows += 1;
-        if !channel.clock.takes(time, || Place::line(number), &mut channel.log.report) {
+        log.report.rows += 1;
+        if !clock.takes(time, || Place::line(number), &mut log.report) {
             return Ok(());
         }
-        let log = &mut channel.log;
         match content {
             Content::Pose(position, quaternion) => {
                 log.reading(time, number, position, Orientation::Quaternion(quaternion));
             }
             Content::Wrench(force) => log.forces(time, number, force),
             Content::Joints(names, positions, efforts) => {
-                return joints(log, time, number, &names, &positions, &efforts)
-                    .map_err(|what| refuse_in(&channel.topic.name, number, what));
+                return joints(log, time, number, &names, &positions, &efforts).map_err(refuse);
             }
         }
         Ok(())
@@ -321,11 +320,6 @@ impl McapReader {
         log.columns = columns;
         Ok(log)
     }
-}
-
-fn refuse_in(topic: &str, message: u64, what: String) -> LogError {
-    let place = Place { line: Some(message), column: None, name: topic.into() };
-    LogError { place, what, allowed: String::new(), way: "".into() }
 }
 
 /// What a topic's messages held.
