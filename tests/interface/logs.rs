@@ -164,6 +164,21 @@ fn what_a_log_lacks_is_said_and_the_report_counts_what_was_done() {
 }
 
 #[test]
+fn a_log_that_does_not_fit_leaves_the_scenario_that_is_set() {
+    let mut page = page_at_bench(DESK);
+    drop_log(&mut page, "clean.csv", bytes("clean.csv"));
+    let before = app(&page).run().events().to_vec();
+    // So short a robot cannot bend as the log commands, or so fast a loop has too many instants.
+    handle(&mut page).go("preset=bench&loop_rate=500000&motion.end=0.3&motion.start=0.1&motion.finish=0.2");
+    page.run_steps(2);
+    assert_eq!(app(&page).run().events(), before, "the log stays as it was judged last");
+    assert!(!texts(&page, "instants of the loop").is_empty(), "why it is not judged anew is said");
+    click(&mut page, "Close log");
+    let simulated = simulate(&app(&page).state().scenario).expect("a run");
+    assert_eq!(app(&page).run().fingerprint(), simulated.fingerprint());
+}
+
+#[test]
 fn a_refused_log_says_where_and_the_one_before_stays() {
     let mut page = page_at_bench(DESK);
     drop_log(&mut page, "clean.csv", bytes("clean.csv"));
