@@ -127,7 +127,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     let source = source(log, setup.commands)?;
     let start = clock::start(times[0], log.origin, &scenario, &mut report);
     let most = setup.most.map_or(MAX_ENTRIES, |most| most.min(MAX_ENTRIES));
-    let ticks = Ticks::new(times, scenario.loop_rate, most, &mut report)?;
+    let rows = log.readings.len() + log.commands.len() + log.joints.len() + log.forces.len();
+    let ticks = Ticks::new((times, rows), scenario.loop_rate, most, &mut report)?;
     let ordered = ordered(log, &plan, &mut report)?;
     let commanded = |at: f64| commanded(source, &plan, &ordered, at, start);
     let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);
@@ -175,10 +176,11 @@ fn source(log: &Log, asked: Option<Commands>) -> Result<Commands, LogError> {
     let otherwise = if log.has_commands() { Commands::Log } else { Commands::Estimated };
     match asked.unwrap_or(otherwise) {
         Commands::Log if !log.has_commands() => Err(LogError::file("holds no command")),
-        Commands::Estimated if !log.has_orientation() => Err(LogError::file(
-            "holds no command, and no orientation to estimate the bend from: give a second file, or the scenario's motion, with \
-             --commands",
-        )),
+        Commands::Estimated if !log.has_orientation() => {
+            let what = "holds no command, and no orientation to estimate the bend from: give a second file with commands, or take \
+                        the scenario's motion";
+            Err(LogError::file(what).or(", with --commands"))
+        }
         source => Ok(source),
     }
 }
