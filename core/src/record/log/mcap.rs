@@ -167,13 +167,14 @@ impl McapReader {
                 let schema = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let kind = Kind::of(&schema).zip(Encoding::of(&encoding));
                 self.pose_chosen |= kind.is_some_and(|(kind, _)| kind.is_pose()) && self.wanted.contains(&name);
-                let place = *self.known.entry([name, schema, encoding]).or_insert_with_key(|[name, schema, encoding]| {
-                    let [name, schema, encoding] = [name, schema, encoding].map(String::clone);
-                    let topic = Topic { name, schema, encoding, messages: 0 };
-                    let log = Log::new(Format::Mcap, Vec::new());
-                    self.channels.push(Channel { topic, kind, clock: Clock::default(), log });
-                    self.channels.len() - 1
-                });
+                let place =
+                    *self.known.entry([name, schema, encoding]).or_insert_with_key(|[name, schema, encoding]| {
+                        let [name, schema, encoding] = [name, schema, encoding].map(String::clone);
+                        let topic = Topic { name, schema, encoding, messages: 0 };
+                        let log = Log::new(Format::Mcap, Vec::new());
+                        self.channels.push(Channel { topic, kind, clock: Clock::default(), log });
+                        self.channels.len() - 1
+                    });
                 // Channels are often repeated.
                 self.places.entry(id).or_insert(place);
             }

@@ -195,7 +195,8 @@ fn time(cells: &Cells, numbers: &mut Numbers, row: &Row, origin: &mut Option<i64
     let slot = &row.time;
     let whole = std::str::from_utf8(cells.get(slot.place)).ok().and_then(|text| text.parse::<i64>().ok());
     let least = if row.nanoseconds.is_some() { LONG_SECONDS } else { LONG };
-    let Some(whole) = whole.filter(|whole| origin.is_some_and(|origin| origin != 0) || whole.unsigned_abs() > least) else {
+    let Some(whole) = whole.filter(|whole| origin.is_some_and(|origin| origin != 0) || whole.unsigned_abs() > least)
+    else {
         let whole = origin.get_or_insert(0);
         let time = value(cells, numbers, slot, line)? - slot.unit.si(*whole as f64);
         let more = row.nanoseconds.as_ref().map_or(Ok(0.0), |slot| value(cells, numbers, slot, line))?;
