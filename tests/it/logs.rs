@@ -172,6 +172,28 @@ fn what_is_wrong_is_named_by_line_and_column() {
 }
 
 #[test]
+fn what_is_wrong_with_the_commands_names_their_file() {
+    let log = Scratch::new("places.csv", &rows("time,x,y,z", &["0,0,0,0.03", "0.01,0,0,0.03"]));
+    let far = Scratch::new("far.csv", &rows("time,bend", &["0,0", "0.01,99"]));
+    let args = |commands| ["analyze", log.path(), "--set", "loop_rate=100", "--commands", commands];
+    let message = refused(&args(far.path()));
+    assert!(message.contains(&format!("line 3 ({})", far.path())), "{message}");
+    let back = Scratch::new("back.csv", &rows("time,bend", &["0,0", "0.01,0", "0,0"]));
+    let output = centrode(&args(back.path()));
+    let table = String::from_utf8(output.stdout).expect("UTF-8");
+    let counted = format!("1 row lies before an earlier one: dropped (line 4 ({}))", back.path());
+    assert!(table.contains(&counted), "{table}");
+}
+
+#[test]
+fn what_has_no_subject_gets_one_where_no_name_stands_before_it() {
+    for (content, said) in [(&b""[..], "The file is empty"), (b"# a\n", "The file holds comments alone")] {
+        let refused = Log::read("a.csv", content.to_vec(), &Options::default()).expect_err("refused");
+        assert_eq!(refused.without_flags(), said);
+    }
+}
+
+#[test]
 fn dirt_is_counted_and_nothing_is_made_up() {
     let text = "\u{feff}# a rig\r\ntime [ms];x [mm];y [mm];z [mm];qx;qy;qz;qw;theta_l [deg];quality\r\n\
                 0;0;0;30,5;0;0;0;1;90;1\r\n\r\n\

@@ -139,7 +139,7 @@ fn moved(readings: &Track<6>, frame: &Frame, marker: &Mat3) -> Track<6> {
         [position.x, position.y, position.z, turned[0], turned[1], turned[2]]
     };
     let values = readings.values.iter().map(turn).collect();
-    Track { times: readings.times.clone(), lines: readings.lines.clone(), values }
+    Track { times: readings.times.clone(), lines: readings.lines.clone(), values, file: readings.file.clone() }
 }
 
 /// A reading and where the model has the marker.

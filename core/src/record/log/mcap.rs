@@ -44,6 +44,8 @@ pub struct McapReader {
     places: BTreeMap<u16, usize>,
     known: BTreeMap<[String; 3], usize>,
     wanted: Vec<String>,
+    /// Whether those may be of another file.
+    partly: bool,
     /// Whether one of those tells where the marker is: then no other pose is read.
     pose_chosen: bool,
     messages: u64,
@@ -80,6 +82,7 @@ impl McapReader {
             places: BTreeMap::new(),
             known: BTreeMap::new(),
             wanted: options.topics.clone(),
+            partly: options.partly,
             pose_chosen: false,
             messages: 0,
             origin: None,
@@ -238,7 +241,7 @@ impl McapReader {
     /// # Errors
     /// When several topics could be meant.
     pub fn finish(self) -> Result<Log, LogError> {
-        let Self { channels, wanted, messages, origin, cut, .. } = self;
+        let Self { channels, wanted, partly, messages, origin, cut, .. } = self;
         let listed = |kept: &dyn Fn(&Topic) -> bool| {
             let told = |channel: &Channel| {
                 let Topic { name, schema, messages, .. } = &channel.topic;
@@ -247,7 +250,7 @@ impl McapReader {
             channels.iter().filter(|channel| kept(&channel.topic)).map(told).collect::<Vec<_>>().join(", ")
         };
         for name in &wanted {
-            if !channels.iter().any(|channel| channel.topic.name == *name) {
+            if !partly && !channels.iter().any(|channel| channel.topic.name == *name) {
                 let what = format!("there is no topic {}", quoted(name.as_bytes()));
                 return Err(LogError { allowed: listed(&|_| true), ..LogError::file(what) });
             }
@@ -255,6 +258,7 @@ impl McapReader {
         let mut log = Log::new(Format::Mcap, Vec::new());
         log.origin = origin.unwrap_or(0) as f64 / 1e9;
         log.report.rows = messages;
+        log.topics = channels.iter().map(|channel| channel.topic.clone()).collect();
         if cut {
             log.report.add(Happening::Cut, Place::line(messages), None);
         }
