@@ -101,10 +101,10 @@ export function choose(core, logs) {
 
 /// Lets the person choose a log. Some systems do not know the extensions of logs, so all files can be chosen.
 export function chooseLog(core, logs) {
-  pick("", (file) => open(core, logs, file));
+  pick("", (file) => open(core, logs, file), () => core.log_not_chosen());
 }
 
-function pick(accept, take) {
+function pick(accept, take, left = () => {}) {
   const input = Object.assign(document.createElement("input"), { type: "file", accept });
   // Some browsers forget an input that is nowhere.
   input.hidden = true;
@@ -113,7 +113,10 @@ function pick(accept, take) {
     if (input.files[0]) take(input.files[0]);
     done();
   });
-  input.addEventListener("cancel", done);
+  input.addEventListener("cancel", () => {
+    done();
+    left();
+  });
   document.body.append(input);
   input.click();
 }

@@ -79,7 +79,9 @@ pub struct Sharing {
     pub(super) address: String,
     /// What the address says, as far as this page knows.
     told: (String, Scenario, Page),
-    pub(super) effects: Vec<Effect>,
+    effects: Vec<Effect>,
+    /// Whether the person knows that what is set is too long for an address.
+    too_long: bool,
     /// What lies over the page to be read.
     pub(super) notice: Option<Notice>,
     /// Said in passing, and until when (s).
@@ -97,6 +99,7 @@ impl Sharing {
             address,
             told: (state.preset.clone(), state.scenario.clone(), page(state, state.time)),
             effects: Vec::new(),
+            too_long: false,
             notice: None,
             said: None,
             slid: None,
@@ -115,10 +118,6 @@ impl Sharing {
             ui.ctx().request_repaint_after_secs(left as f32);
         }
         self.said.as_ref().map(|(text, _)| text.as_str())
-    }
-
-    pub(super) fn push(&mut self, effect: Effect) {
-        self.effects.push(effect);
     }
 
     pub(super) fn say(&mut self, text: impl Into<String>) {
@@ -145,7 +144,7 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
     Page {
         view: state.stage.key(),
         // A log may be longer than the scenario, whose address this is.
-        time: (!state.playing).then_some((cursor.min(state.scenario.motion.end) * 1e4).round() / 1e4),
+        time: (!state.playing).then(|| rounded(cursor, state.scenario.motion.end)),
         speed: state.speed,
         looping: state.looping,
         rule: state.tuning.rule.name(),
@@ -154,9 +153,9 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
     }
 }
 
-/// Whether the page can run a scenario; if not, why, by key.
-fn check(scenario: &Scenario) -> Result<(), ScenarioError> {
-    memo::check(scenario)
+/// A time in a link, s: short, and not beyond the end, which may have more decimals.
+fn rounded(cursor: f64, end: f64) -> f64 {
+    ((cursor.min(end) * 1e4).round() / 1e4).min(end)
 }
 
 impl App {
@@ -174,7 +173,7 @@ impl App {
     /// Goes where a link says (an address, or its fragment): at the start, back, forward, or as the person edited it.
     /// What cannot be read is told.
     pub fn go(&mut self, link: &str) {
-        let (read, broken) = Link::read_if(link, check);
+        let (read, broken) = Link::read_if(link, memo::check);
         self.load_link(&read);
         if let Some(time) = read.page.time {
             self.state.time = time;
@@ -270,8 +269,16 @@ impl App {
         if !same || step {
             self.sharing.slid_before = slid;
         }
-        if let Some(fragment) = self.link().ok().and_then(|link| link.fragment().ok()) {
-            self.sharing.address(fragment, step);
+        match self.link().map(|link| link.fragment()) {
+            Ok(Ok(fragment)) => {
+                self.sharing.address(fragment, step);
+                self.sharing.too_long = false;
+            }
+            Ok(Err(_)) if !std::mem::replace(&mut self.sharing.too_long, true) => {
+                self.sharing.notice.get_or_insert_with(words::link::not_held);
+            }
+            // An impossible scenario is told beside its control.
+            Ok(Err(_)) | Err(_) => {}
         }
         self.sharing.told = self.current();
     }
@@ -282,7 +289,7 @@ impl App {
             Share::CopyLink => {
                 let here = |mut link: Link| {
                     // What one sees, also while it moves.
-                    link.page.time = Some((self.cursor().min(self.state.scenario.motion.end) * 1e4).round() / 1e4);
+                    link.page.time = Some(rounded(self.cursor(), self.state.scenario.motion.end));
                     if self.sharing.address.is_empty() {
                         return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
                     }
@@ -306,7 +313,7 @@ impl App {
             Share::Save => {
                 let name = format!("centrode-{}.toml", self.state.preset);
                 let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
-                self.sharing.effects.push(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
+                self.sharing.hand_out(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
             Share::OwnPage => match self
                 .link()
@@ -316,8 +323,8 @@ impl App {
                 Ok(address) => ctx.open_url(egui::OpenUrl::new_tab(address)),
                 Err(why) => self.sharing.notice = Some(words::link::no_link(&why)),
             },
-            Share::Open => self.sharing.effects.push(Effect::Choose),
-            Share::OpenLog => self.sharing.effects.push(Effect::ChooseLog),
+            Share::Open => self.sharing.hand_out(Effect::Choose),
+            Share::OpenLog => self.sharing.hand_out(Effect::ChooseLog),
         }
     }
 

@@ -20,7 +20,7 @@ use crate::app::words;
 use centrode_core::record::log::Log;
 use centrode_core::scenario::link::Link;
 use centrode_core::scenario::text::number;
-use file::{Asked, File, Parts};
+use file::{File, Parts};
 use form::{Edit, Form};
 use reading::{Desk, Refused};
 
@@ -83,7 +83,7 @@ impl App {
             return;
         }
         self.logs.form = None;
-        self.read_log(Parts { file, commands: None, asked: Asked::default() });
+        self.read_log(Parts::new(file));
     }
 
     /// The bytes of a file that were asked for by [`Effect::Fetch`], or why they cannot be had.
@@ -102,13 +102,20 @@ impl App {
             let shown = outcome.and_then(|log| self.show_log(&parts, log));
             match shown {
                 Ok(()) => self.logs.shown = Some(parts),
-                Err(refused) => self.logs.form = Some(Form::new(parts, Some(refused.why), refused.topics)),
+                Err(refused) => self.logs.form = Some(Form::new(parts, Some(refused.why))),
             }
         }
         if let Some(number) = self.logs.desk.wanted() {
-            self.sharing.push(Effect::Fetch(number));
+            self.sharing.hand_out(Effect::Fetch(number));
         }
         self.logs.desk.is_busy()
+    }
+
+    /// The person chose no file after all.
+    pub fn none_chosen(&mut self) {
+        if let Some(form) = &mut self.logs.form {
+            form.awaits = false;
+        }
     }
 
     fn show_log(&mut self, parts: &Parts, log: Log) -> Result<(), Refused> {
@@ -138,11 +145,11 @@ impl App {
             }
             LogWish::Cancel => self.logs.desk.cancel(),
             LogWish::Form => {
-                self.logs.form = self.logs.shown.clone().map(|parts| Form::new(parts, None, Vec::new()));
+                self.logs.form = self.logs.shown.clone().map(|parts| Form::new(parts, None));
             }
             LogWish::Edit(edit) => {
                 if edit == Edit::Second {
-                    self.sharing.push(Effect::ChooseLog);
+                    self.sharing.hand_out(Effect::ChooseLog);
                 }
                 if let Some(form) = &mut self.logs.form {
                     form.edit(edit);

@@ -84,13 +84,15 @@ impl Memo {
     /// Runs or judges what is wanted.
     fn follow(&mut self) -> Result<(), Refusal> {
         let plan = plan(&self.wanted).map_err(Refusal::Scenario)?;
+        // Also when the log does not fit it: without the log it is what is shown.
+        self.plan = plan.clone();
         let looks = |run: &Run| {
             let detection = &run.plan.scenario().detection;
             (detection.armed_from, detection.min_speed)
         };
         let before = looks(&self.run);
         let anew = match &self.recorded {
-            None => self.run.update(plan.clone()),
+            None => self.run.update(plan),
             Some(recorded) if recorded.depends(&self.wanted) => {
                 let (recorded, run) = recorded.again(&self.wanted).map_err(Refusal::Log)?;
                 (self.recorded, self.run) = (Some(recorded), run);
@@ -98,7 +100,6 @@ impl Memo {
             }
             Some(recorded) => self.run.update(recorded.plan(&self.wanted).map_err(Refusal::Scenario)?),
         };
-        self.plan = plan;
         self.version += 1;
         if anew > Anew::Events || looks(&self.run) != before {
             self.trace = Trace::new(&self.run);

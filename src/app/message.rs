@@ -115,10 +115,11 @@ impl App {
 
     /// Tells the host of alarms that playback passes on its way from one time (s) to another.
     pub(super) fn pass(&mut self, from: f64, to: f64) {
-        if self.listener.is_none() {
+        let run = self.memo.run();
+        // A log stays on this device.
+        if self.listener.is_none() || run.is_recorded() {
             return;
         }
-        let run = self.memo.run();
         let within = |time: &f64| (from < *time || from == 0.0 && *time == 0.0) && *time <= to;
         let raised = run.events().iter().filter(|event| within(&event.raised)).map(|event| (event.raised, event, true));
         let cleared = run.events().iter().filter_map(|event| Some((event.cleared.filter(within)?, event, false)));
@@ -129,7 +130,7 @@ impl App {
     }
 
     fn post(&mut self, message: Map<String, Json>) {
-        self.sharing.effects.push(Effect::Post(Json::Object(message).to_string()));
+        self.sharing.hand_out(Effect::Post(Json::Object(message).to_string()));
     }
 
     /// Does what is asked, and gives what was asked for by key.
@@ -155,7 +156,9 @@ impl App {
     }
 
     fn seek(&mut self, time: &Json) -> Result<(), Vec<Refusal>> {
-        let allowed = Allowed::Range(Limit::At(0.0), Limit::Key("motion.end", Some(self.end())));
+        // The end of a log is no host's business.
+        let end = self.memo.plan().scenario().motion.end;
+        let allowed = Allowed::Range(Limit::At(0.0), Limit::Key("motion.end", Some(end)));
         let given = time.as_f64().filter(|given| allowed.has(*given));
         self.state.time =
             given.ok_or_else(|| vec![Refusal::part("time", time, &allowed.words(Quantity::Time, Units::Si))])?;
@@ -240,9 +243,9 @@ impl App {
             "preset": self.state.preset,
             "values": values,
             "state": {
-                "phase": Phase::at(run, time).words().to_lowercase(),
+                "phase": (!run.is_recorded()).then(|| Phase::at(run, time).words().to_lowercase()),
                 "time": time,
-                "end": self.end(),
+                "end": (!run.is_recorded()).then(|| self.end()),
                 "playing": self.state.playing,
                 "speed": self.state.speed,
                 "loop": self.state.looping,
@@ -344,8 +347,11 @@ fn json_of(value: &Value) -> Json {
     }
 }
 
-/// What a run comes to, with the names of `centrode run --json`.
+/// What a run comes to, with the names of `centrode run --json`; null for a log, which stays on this device.
 fn result(run: &Run) -> Json {
+    if run.is_recorded() {
+        return Json::Null;
+    }
     let contact = run.plan.contact().zip(run.contact_time());
     let contact =
         contact.map(|(contact, time)| json!({ "time": time, "arc_length": contact.arc_length, "bend": contact.bend }));

@@ -194,6 +194,8 @@ impl App {
     fn made_of(&self, subject: Subject) -> (&str, &Scenario) {
         match (&self.source, subject) {
             (Some(source), Subject::Figure(_) | Subject::Table) => (source.preset.name, &source.scenario),
+            // A log that is shown changes neither.
+            (_, Subject::Map | Subject::Tuning) => (&self.state.preset, self.memo.plan().scenario()),
             _ => (&self.state.preset, self.memo.run().plan.scenario()),
         }
     }
@@ -264,7 +266,7 @@ impl App {
             Subject::Figure(_) | Subject::Table | Subject::Map => match self.found()? {
                 Found::Figure(chart) => Ok(chart.clone()),
                 Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (scenario, REPEATS))),
-                Found::Map(found) => Ok(map::chart::chart(found, &self.memo.run().plan)),
+                Found::Map(found) => Ok(map::chart::chart(found, self.memo.plan())),
             },
         }
     }

@@ -198,6 +198,7 @@ impl AnalyzeArgs {
             tool: self.tool.clone(),
             frame_rate: Some(scenario.tracker.rate),
             topics: self.topics.clone(),
+            partly: self.commands.as_deref().is_some_and(|path| path != Path::new("motion")),
         };
         for (flag, value) in [("--min-quality", self.min_quality), ("--hold", self.hold)] {
             if value.is_some_and(|value| !(0.0..=f64::MAX).contains(&value)) {
@@ -211,7 +212,11 @@ impl AnalyzeArgs {
         }
         // Mappings are for the log; what it does not hold they may name in the file of commands.
         let other = read(path, &Options { mappings: Vec::new(), format: None, ..options })?;
-        log.take_commands(other).map_err(blame(path))?;
+        let known = |topic: &&String| [&log, &other].iter().any(|log| log.topics.iter().any(|has| has.name == **topic));
+        if let Some(topic) = self.topics.iter().find(|topic| !known(topic)) {
+            return Err(Failure::Input(format!("--topic: there is no topic {topic:?} in either file")));
+        }
+        log.take_commands(other, &path.display().to_string()).map_err(blame(path))?;
         Ok((log, Some(Commands::Log)))
     }
 }

@@ -41,6 +41,7 @@ impl LogWorker {
 enum Arrival {
     Chosen(File),
     Fetched(u32, Result<Vec<u8>, String>),
+    Nothing,
 }
 
 thread_local! {
@@ -65,6 +66,12 @@ pub fn looks_like_log(name: &str, head: &[u8]) -> bool {
 #[wasm_bindgen]
 pub fn log_chosen(name: &str, size: f64, head: &[u8], number: u32) {
     arrive(Arrival::Chosen(File::there(name, size as u64, head, number)));
+}
+
+/// The person left the dialog without a log.
+#[wasm_bindgen]
+pub fn log_not_chosen() {
+    arrive(Arrival::Nothing);
 }
 
 /// The bytes of a log that were asked for.
@@ -98,6 +105,7 @@ pub fn take_in(app: &mut App) {
     for arrival in ARRIVALS.take() {
         match arrival {
             Arrival::Chosen(file) => app.log_chosen(file),
+            Arrival::Nothing => app.none_chosen(),
             Arrival::Fetched(number, bytes) => app.log_fetched(number, bytes),
         }
     }

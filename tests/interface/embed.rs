@@ -253,3 +253,34 @@ fn what_the_person_changes_is_told() {
     let detection = app(&page).run().detection().expect("detected");
     assert_eq!(results[0]["result"]["detection"]["time"], json!(detection.time));
 }
+
+#[test]
+fn a_log_is_no_business_of_the_host() {
+    let mut page = framed(vec2(900.0, 700.0), Embed::All, "preset=bench");
+    page.run_steps(3);
+    handle(&mut page).ready();
+    let log = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/logs/clean.csv")).expect("a log");
+    told(&mut page);
+    handle(&mut page).opened("clean.csv", Ok(log));
+    page.run_steps(12);
+    assert_eq!(app(&page).log(), Some("clean.csv"));
+    assert!(!app(&page).run().events().is_empty());
+    ask(&mut page, json!({ "do": "seek", "time": 5.9 }));
+    let (answer, mut all) = ask(&mut page, json!({ "do": "play" }));
+    assert_eq!(
+        (&answer["result"], &answer["state"]["phase"], &answer["state"]["end"]),
+        (&Value::Null, &Value::Null, &Value::Null)
+    );
+    // Over both alarms.
+    for _ in 0..400 {
+        page.step();
+        if app(&page).state().time > 6.3 {
+            break;
+        }
+    }
+    assert!(app(&page).state().time > 6.3, "{}", app(&page).state().time);
+    all.extend(told(&mut page));
+    for message in all {
+        assert!(message["event"] != "event" && message["result"].is_null(), "{message}");
+    }
+}

@@ -305,7 +305,13 @@ fn a_scenario_too_long_for_a_link_is_said_to_need_a_file() {
     let disks: Vec<String> = (1..1500).map(|i| format!("{}", f64::from(i) * 0.03 / 1501.0)).collect();
     let text = format!("[contact]\ndisk = 0\n[robot]\ndisks = [{}]\n", disks.join(", "));
     handle(&mut page).opened("many.toml", Ok(text.into_bytes()));
-    page.run_steps(2);
+    page.run_steps(6);
+    let notice = app(&page).notice().expect("the address is another one's");
+    assert!(notice.title.contains("address does not hold"), "{notice:?}");
+    click(&mut page, "Go on");
+    slide(&mut page, "Seed", 5.0);
+    assert_eq!(app(&page).notice(), None, "once is enough");
+    page.run_steps(6);
     pick(&mut page, "Copy link");
     page.run_steps(2);
     assert!(!texts(&page, "save the scenario as a file instead").is_empty(), "{:?}", app(&page).notice());
@@ -323,4 +329,17 @@ fn a_typed_value_is_a_step() {
     page.run_steps(2);
     let steps = told(&mut page);
     assert!(matches!(&steps[..], [(text, true)] if text.contains("&seed=55&t=")), "{steps:?}");
+}
+
+#[test]
+fn the_end_is_in_the_link_however_many_decimals_it_has() {
+    let mut page = page_of(DESK);
+    handle(&mut page).go("preset=bench&motion.end=9.00005");
+    page.run_steps(2);
+    page.key_press(Key::End);
+    page.run_steps(3);
+    let fragments = told(&mut page);
+    let (last, _) = fragments.last().expect("an address");
+    let (link, broken) = Link::read(last);
+    assert!(broken.is_empty() && link.page.time.is_some_and(|time| time > 8.99), "{last}: {broken:?}");
 }

@@ -164,6 +164,21 @@ fn what_a_log_lacks_is_said_and_the_report_counts_what_was_done() {
 }
 
 #[test]
+fn a_log_that_does_not_fit_leaves_the_scenario_that_is_set() {
+    let mut page = page_at_bench(DESK);
+    drop_log(&mut page, "clean.csv", bytes("clean.csv"));
+    let before = app(&page).run().events().to_vec();
+    // So short a robot cannot bend as the log commands, or so fast a loop has too many instants.
+    handle(&mut page).go("preset=bench&loop_rate=500000&motion.end=0.3&motion.start=0.1&motion.finish=0.2");
+    page.run_steps(2);
+    assert_eq!(app(&page).run().events(), before, "the log stays as it was judged last");
+    assert!(!texts(&page, "instants of the loop").is_empty(), "why it is not judged anew is said");
+    click(&mut page, "Close log");
+    let simulated = simulate(&app(&page).state().scenario).expect("a run");
+    assert_eq!(app(&page).run().fingerprint(), simulated.fingerprint());
+}
+
+#[test]
 fn a_refused_log_says_where_and_the_one_before_stays() {
     let mut page = page_at_bench(DESK);
     drop_log(&mut page, "clean.csv", bytes("clean.csv"));
@@ -270,6 +285,28 @@ fn a_tool_the_motion_and_a_fitted_frame_are_asked_for() {
 }
 
 #[test]
+fn topics_can_be_chosen_again_and_a_closed_dialog_waits_for_nothing() {
+    let mut page = page_at_bench(DESK);
+    drop_log(&mut page, "ros.mcap", bytes("ros.mcap"));
+    click(&mut page, "Columns");
+    let topics = |page: &Page| page.query_all_by_label_contains("messages)").count();
+    assert_eq!(topics(&page), 2, "a log that was read has them");
+    page.get_by_label_contains("/joint_states (").click();
+    page.run_steps(2);
+    click(&mut page, "Read log");
+    settle(&mut page);
+    assert!(app(&page).log_form().is_none() && app(&page).run().judged.first(Method::Fcd).is_some());
+    click(&mut page, "Columns");
+    assert_eq!(topics(&page), 2);
+    page.get_by_role_and_label(Role::RadioButton, "a second file …").click();
+    page.run_steps(2);
+    assert!(app(&page).log_form().is_some_and(|form| form.awaits));
+    handle(&mut page).none_chosen();
+    drop_log(&mut page, "clean.csv", bytes("clean.csv"));
+    assert_eq!(app(&page).log(), Some("clean.csv"));
+}
+
+#[test]
 fn commands_come_from_a_second_file() {
     let mut page = page_at_bench(DESK);
     drop_log(&mut page, "trajectory.tum", bytes("trajectory.tum"));
@@ -283,7 +320,7 @@ fn commands_come_from_a_second_file() {
     settle(&mut page);
     let options = Options { frame_rate: Some(bench().tracker.rate), ..Options::default() };
     let mut log = Log::read("trajectory.tum", bytes("trajectory.tum"), &options).expect("a log");
-    log.take_commands(Log::read("commands.csv", bytes("commands.csv"), &options).expect("commands"))
+    log.take_commands(Log::read("commands.csv", bytes("commands.csv"), &options).expect("commands"), "commands.csv")
         .expect("the same clock");
     let made =
         assemble(&log, &bench(), &Setup { commands: Some(Commands::Log), ..Setup::default() }).expect("a recording");

@@ -112,6 +112,23 @@ fn map_and_table_have_the_command_s_bytes() {
 }
 
 #[test]
+fn the_map_beside_a_log_is_the_scenario_s() {
+    let mut page = page_of(DESK);
+    let log = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/logs/clean.csv")).expect("a log");
+    // At a rate of its own, and with a contact, which no log knows.
+    slide(&mut page, "Contact disk", 3.0);
+    page.state_mut().as_mut().expect("built").opened("clean.csv", Ok(log));
+    page.run_steps(12);
+    assert_eq!(app(&page).log(), Some("clean.csv"));
+    show(&mut page, "Map");
+    finish(&mut page);
+    let (name, _, svg) = file(saved(&mut page, "Save map", "SVG"));
+    assert_eq!(name, "map-bench.svg");
+    let args = ["map", "--preset", "bench", "--set", "contact.disk=3", "--columns", "120", "--rows", "90", "--out"];
+    assert!(svg == written(&args, "svg"), "another drawing");
+}
+
+#[test]
 fn the_tuning_view_is_saved_with_its_four_pictures() {
     let mut page = page_of(DESK);
     show(&mut page, "Tuning");

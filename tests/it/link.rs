@@ -167,13 +167,27 @@ fn what_is_too_long_is_said_and_not_read() {
 #[test]
 fn an_address_is_a_whole_one() {
     let link = whole("");
-    for address in ["https://example.org/", "http://localhost:8080/?test", "file:///tmp/index.html", "https://ö.org/#x"]
-    {
+    for address in [
+        "https://example.org/",
+        "http://localhost:8080/?test",
+        "file:///tmp/index.html",
+        "https://ö.org/#x",
+        "https://a.org/?a=|^{}\\`",
+    ] {
         assert!(link.at(address).is_ok(), "{address}");
     }
-    for address in
-        ["", "example.org", "localhost:8080", "://x", "https://", "1s://x", "https://a b", "https://?x", "bench"]
-    {
+    for address in [
+        "",
+        "example.org",
+        "localhost:8080",
+        "://x",
+        "https://",
+        "1s://x",
+        "https://a b",
+        "https://a<b",
+        "https://?x",
+        "bench",
+    ] {
         let refused = link.at(address).expect_err(address);
         assert!(matches!(&refused, LinkError::NotAddress { address: named } if named == address), "{refused:?}");
     }

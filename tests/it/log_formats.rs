@@ -292,13 +292,20 @@ fn chunks_are_read_however_they_are_compressed() {
     assert!(cut.readings.len() < whole.readings.len() && cut.report.sentences().any(|line| line.contains("cut")));
 }
 
-/// A file of JSON messages on given topics.
+/// A file of JSON messages on given topics, with a channel of its own for each message where `apart`.
 fn json_mcap(messages: &[(&str, &str, String)]) -> Vec<u8> {
+    channelled(messages, false)
+}
+
+fn channelled(messages: &[(&str, &str, String)], apart: bool) -> Vec<u8> {
     let mut out = std::io::Cursor::new(Vec::new());
     let mut writer = ::mcap::WriteOptions::new().compression(None).create(&mut out).expect("MCAP");
     for (k, (topic, schema, data)) in messages.iter().enumerate() {
         let schema = writer.add_schema(schema, "jsonschema", b"{}").expect("a schema");
-        let channel = writer.add_channel(schema, topic, "json", &std::collections::BTreeMap::new()).expect("a channel");
+        // Channels that differ in their metadata are different ones.
+        let publisher = std::collections::BTreeMap::from([("publisher".to_owned(), k.to_string())]);
+        let metadata = if apart { publisher } else { std::collections::BTreeMap::new() };
+        let channel = writer.add_channel(schema, topic, "json", &metadata).expect("a channel");
         let time = k as u64 * 10_000_000;
         let header = ::mcap::records::MessageHeader {
             channel_id: channel,
@@ -334,6 +341,14 @@ fn json_messages_are_read_and_topics_are_chosen() {
         message.contains("/tip (geometry_msgs/TransformStamped, 1 messages)") && message.contains("--topic"),
         "{message}"
     );
+    let one = json_mcap(&[
+        ("/tip", "geometry_msgs/TransformStamped", transform.into()),
+        ("/joints", "sensor_msgs/msg/JointState", joints.into()),
+        ("/others", "sensor_msgs/msg/JointState", joints.into()),
+    ]);
+    let joints_alone = Options { topics: vec!["/joints".into()], ..Options::default() };
+    let log = Log::read("x.mcap", one, &joints_alone).expect("a log");
+    assert_eq!((log.readings.len(), log.joints.len()), (1, 1), "a topic of joints leaves the only pose");
     assert!(read(&["/none"]).expect_err("none").to_string().contains("no topic \"/none\""));
     let log = read(&["/tip"]).expect("a log");
     assert_eq!(log.readings.values[0][..3], [0.0, 0.0, 0.03]);
@@ -342,6 +357,28 @@ fn json_messages_are_read_and_topics_are_chosen() {
     let broken = json_mcap(&[("/tip", "geometry_msgs/PoseStamped", r#"{"pose":{"position":{"x":"far"}}}"#.into())]);
     let message = Log::read("x.mcap", broken, &Options::default()).expect_err("broken").to_string();
     assert!(message.contains("line 1 (/tip)") && message.contains("far"), "{message}");
+}
+
+#[test]
+fn a_topic_with_two_publishers_is_one() {
+    let at = |x: f64| {
+        format!(r#"{{"pose":{{"position":{{"x":{x},"y":0,"z":0}},"orientation":{{"x":0,"y":0,"z":0,"w":1}}}}}}"#)
+    };
+    let messages = [0.1, 0.2, 0.3].map(|x| ("/tip", "geometry_msgs/PoseStamped", at(x)));
+    let read = |bytes| Log::read("x.mcap", bytes, &Options::default()).expect("a log");
+    let log = read(channelled(&messages, true));
+    assert_eq!(log.readings.values.iter().map(|value| value[0]).collect::<Vec<_>>(), [0.1, 0.2, 0.3]);
+    assert_eq!(log, read(json_mcap(&messages)));
+}
+
+#[test]
+fn the_least_stamp_that_there_is_does_no_harm() {
+    let text = b"time [ns],x,y,z\n-9223372036854775808,0,0,0\n0,0,0,0\n".to_vec();
+    assert!(Log::read("x.csv", text, &Options::default()).is_ok_and(|log| log.readings.len() == 2));
+    let pose = r#"{"header":{"stamp":{"sec":-9223372036,"nanosec":-854775808}},
+        "pose":{"position":{"x":0,"y":0,"z":0},"orientation":{"x":0,"y":0,"z":0,"w":1}}}"#;
+    let bytes = json_mcap(&[("/tip", "geometry_msgs/PoseStamped", pose.into())]);
+    assert!(Log::read("x.mcap", bytes, &Options::default()).is_ok_and(|log| log.readings.len() == 1));
 }
 
 #[test]

@@ -1,6 +1,8 @@
 //! Logs: written by the command, read back, and read as rigs write them.
 
 use crate::cli::{centrode, json, scratch};
+use centrode_core::record::log::{Log, Options, Setup, assemble};
+use centrode_core::scenario::Scenario;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -131,6 +133,7 @@ fn what_is_wrong_is_named_by_line_and_column() {
         (&rows("a,b,c", &["0,1,2"]), &["line 1", "--map"]),
         (&rows("1,2,3", &["0,1,2"]), &["line 1", "header", "--map time=#1"]),
         (&rows("time,qx,qy,qz,qw", &["0,1,2,3,4"]), &["no position"]),
+        (&rows("time,bend", &["0,0", "30000,0"]), &["3000001 instants", "2 values", "unit of the time"]),
         (&rows("time,bend [rad]", &["0,0", "1,99"]), &["line 3", "99", "is the unit right?"]),
         (&rows("time,x,y,z", &["0,1,2,3"]), &["no command", "--commands"]),
         (&rows("time,bend", &["0,0", "1e9,0"]), &["instants", "loop_rate"]),
@@ -143,6 +146,11 @@ fn what_is_wrong_is_named_by_line_and_column() {
         for part in [log.path()].iter().chain(parts) {
             assert!(message.contains(part), "{message:?} lacks {part:?}");
         }
+        // The page has no flags.
+        let scenario = Scenario { loop_rate: 100.0, ..Scenario::default() };
+        let read = Log::read("wrong.csv", content.to_vec(), &Options::default());
+        let refused = read.and_then(|log| assemble(&log, &scenario, &Setup::default())).expect_err("refused");
+        assert!(!refused.without_flags().contains("--"), "{}", refused.without_flags());
     }
     let log = Scratch::new("sound.csv", &rows("time,bend", &["0,0", "0.01,0", "0.02,0"]));
     for (flags, parts) in [
@@ -161,6 +169,28 @@ fn what_is_wrong_is_named_by_line_and_column() {
         }
     }
     assert!(refused(&["run", "--log", "x.mp3"]).contains(".mp3"));
+}
+
+#[test]
+fn what_is_wrong_with_the_commands_names_their_file() {
+    let log = Scratch::new("places.csv", &rows("time,x,y,z", &["0,0,0,0.03", "0.01,0,0,0.03"]));
+    let far = Scratch::new("far.csv", &rows("time,bend", &["0,0", "0.01,99"]));
+    let args = |commands| ["analyze", log.path(), "--set", "loop_rate=100", "--commands", commands];
+    let message = refused(&args(far.path()));
+    assert!(message.contains(&format!("line 3 ({})", far.path())), "{message}");
+    let back = Scratch::new("back.csv", &rows("time,bend", &["0,0", "0.01,0", "0,0"]));
+    let output = centrode(&args(back.path()));
+    let table = String::from_utf8(output.stdout).expect("UTF-8");
+    let counted = format!("1 row lies before an earlier one: dropped (line 4 ({}))", back.path());
+    assert!(table.contains(&counted), "{table}");
+}
+
+#[test]
+fn what_has_no_subject_gets_one_where_no_name_stands_before_it() {
+    for (content, said) in [(&b""[..], "The file is empty"), (b"# a\n", "The file holds comments alone")] {
+        let refused = Log::read("a.csv", content.to_vec(), &Options::default()).expect_err("refused");
+        assert_eq!(refused.without_flags(), said);
+    }
 }
 
 #[test]

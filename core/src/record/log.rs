@@ -106,6 +106,8 @@ pub struct Options {
     pub frame_rate: Option<f64>,
     /// Which topics of an MCAP file, where several could be meant.
     pub topics: Vec<String>,
+    /// Whether a topic may be one of another file that is read with the same options.
+    pub partly: bool,
 }
 
 /// What a log holds, before it is a recording.
@@ -125,6 +127,8 @@ pub struct Log {
     pub forces: Track<3>,
     /// What its times are counted from, s: 0, or the first row's time where a double of it would lose digits.
     pub origin: f64,
+    /// The topics of an MCAP file.
+    pub topics: Vec<Topic>,
     /// What was done with its rows.
     pub report: Report,
 }
@@ -139,6 +143,7 @@ impl Log {
             joints: Track::default(),
             forces: Track::default(),
             origin: 0.0,
+            topics: Vec::new(),
             report: Report::default(),
         }
     }
@@ -165,19 +170,22 @@ impl Log {
         !self.commands.is_empty() || !self.joints.is_empty()
     }
 
-    /// Takes commands, and load cells where this log has none, from a second one with the same clock.
+    /// Takes commands, and load cells where this log has none, from a second one with the same clock, a file called `name`.
     ///
     /// # Errors
     /// When the second one holds no commands.
-    pub fn take_commands(&mut self, mut other: Self) -> Result<(), LogError> {
+    pub fn take_commands(&mut self, mut other: Self, name: &str) -> Result<(), LogError> {
         if !other.has_commands() {
             return Err(LogError::file("holds no command: name columns theta_l or bend, or q1, q2 and q3"));
         }
-        self.report.merge(&other.report);
+        self.report.merge(&other.report, name);
         if other.origin != self.origin {
             let later = other.origin - self.origin;
             let tracks = [&mut other.commands.times, &mut other.joints.times, &mut other.forces.times];
             tracks.into_iter().flatten().for_each(|time| *time += later);
+        }
+        for file in [&mut other.commands.file, &mut other.joints.file, &mut other.forces.file] {
+            *file = name.into();
         }
         (self.commands, self.joints) = (other.commands, other.joints);
         if self.forces.is_empty() {
@@ -223,7 +231,7 @@ impl Reader {
     /// When it is empty, its format is not known, or its header does not say enough.
     pub fn new(name: &str, bytes: Vec<u8>, options: &Options) -> Result<Self, LogError> {
         if bytes.len() as u64 > MAX_BYTES {
-            return Err(LogError::file("larger than 1 GiB: cut it into parts"));
+            return Err(LogError::file("is larger than 1 GiB: cut it into parts"));
         }
         let format = options.format.unwrap_or_else(|| Format::guess(name, &bytes));
         let inner = match format {

@@ -145,7 +145,8 @@ fn is_address(text: &str) -> bool {
     let Some((scheme, rest)) = text.split_once("://") else { return false };
     let named = scheme.starts_with(|first: char| first.is_ascii_alphabetic())
         && scheme.chars().all(|c| c.is_ascii_alphanumeric() || "+-.".contains(c));
-    let stray = |c: char| c.is_whitespace() || c.is_control() || "\"<>\\^`{|}".contains(c);
+    // Browsers keep | ^ { } \ ` in a query as they were typed.
+    let stray = |c: char| c.is_whitespace() || c.is_control() || "\"<>".contains(c);
     named && !rest.is_empty() && !rest.starts_with(['?', ':']) && !rest.contains(stray)
 }
 

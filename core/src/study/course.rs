@@ -156,9 +156,16 @@ pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
 /// θL over time, with the contact shaded.
 #[must_use]
 pub fn angle(run: &Run) -> Panel {
+    let points: Vec<[f64; 2]> = run.samples().map(|sample| [sample.time, sample.theta_l]).collect();
     let motion = &run.plan.scenario().motion;
-    let points = run.samples().map(|sample| [sample.time, sample.theta_l]).collect();
-    bent(over_time(run, angles([motion.theta_start, motion.theta_end])), &contacts(run), points)
+    let mut ends = [motion.theta_start, motion.theta_end];
+    if run.is_recorded() {
+        // A log moves as it did, whatever the scenario says.
+        let finite = || points.iter().map(|point| point[1]).filter(|angle| angle.is_finite());
+        let own = [finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max)];
+        ends = if own[0].is_finite() { own } else { ends };
+    }
+    bent(over_time(run, angles(ends)), &contacts(run), points)
 }
 
 /// The axis of θL between two angles.
@@ -275,6 +282,17 @@ mod tests {
         let run = run("paper");
         let spans = contacts(&run);
         assert_eq!(spans, [[run.contact_time().expect("contact"), 10.0]]);
+    }
+
+    #[test]
+    fn the_angle_of_a_log_has_a_range_of_its_own() {
+        let log = run("bench");
+        let mut scenario = log.plan.scenario().clone();
+        (scenario.motion.theta_start, scenario.motion.theta_end) = (1.5, 1.4);
+        let recording = crate::record::Recording { truth: None, ..log.recording.clone() };
+        let plan = crate::scenario::Plan::new(&scenario).expect("possible");
+        let panel = angle(&Run::recorded(plan, recording).expect("entries"));
+        assert_eq!(panel.y.range, angle(&log).y.range);
     }
 
     #[test]

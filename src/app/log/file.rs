@@ -3,6 +3,7 @@
 use std::rc::Rc;
 
 use centrode_core::record::log::frame::Setting;
+use centrode_core::record::log::mcap::Topic;
 use centrode_core::record::log::{Commands, Options, Rate, Setup};
 
 /// So much of a file is looked at before it is read, bytes.
@@ -67,6 +68,8 @@ pub fn is_log(name: &str, head: &[u8]) -> bool {
 pub struct Asked {
     /// Format, columns, tool and topics.
     pub options: Options,
+    /// Which topics of the second file.
+    pub second_topics: Vec<String>,
     /// Whether the commands are those of the scenario's motion.
     pub motion: bool,
     /// Whether the log's frame is fitted.
@@ -84,9 +87,17 @@ pub struct Parts {
     pub commands: Option<File>,
     /// How it is read.
     pub asked: Asked,
+    /// The topics that the log has, as far as it was read, and those of the second file.
+    pub topics: [Vec<Topic>; 2],
 }
 
 impl Parts {
+    /// A log about which nothing was said.
+    #[must_use]
+    pub fn new(file: File) -> Self {
+        Self { file, commands: None, asked: Asked::default(), topics: Default::default() }
+    }
+
     /// How it becomes a recording.
     #[must_use]
     pub fn setup(&self) -> Setup {
@@ -113,7 +124,8 @@ impl Parts {
         }
         mappings.iter().for_each(|mapping| flag("--map", &mapping.to_string()));
         tool.iter().for_each(|tool| flag("--tool", tool));
-        topics.iter().for_each(|topic| flag("--topic", topic));
+        let second = self.asked.second_topics.iter().filter(|topic| self.commands.is_some() && !topics.contains(topic));
+        topics.iter().chain(second).for_each(|topic| flag("--topic", topic));
         if self.asked.motion {
             flag("--commands", "motion");
         } else if let Some(commands) = &self.commands {

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::file::{File, Parts};
 use centrode_core::record::log::header::columns;
-use centrode_core::record::log::mcap::Topic;
 use centrode_core::record::log::text::head::{is_number, preview};
 use centrode_core::record::log::{Column, Format, Mapping, Options, Reader, Role};
 
@@ -22,8 +21,8 @@ pub enum Edit {
     Format(Option<Format>),
     /// The tool of an NDI file.
     Tool(String),
-    /// Whether a topic is read.
-    Topic(String, bool),
+    /// Whether a topic is read, of the second file if so.
+    Topic(String, bool, bool),
     /// Whether the commands are those of the scenario's motion.
     Motion(bool),
     /// The commands are in a second file, which is to be chosen.
@@ -49,8 +48,6 @@ pub struct Form {
     pub guessed: BTreeMap<Role, (usize, &'static str)>,
     /// What they are.
     pub chosen: BTreeMap<Role, (usize, &'static str)>,
-    /// What an MCAP file has.
-    pub topics: Vec<Topic>,
     /// Whether the next file that comes in has the commands.
     pub awaits: bool,
 }
@@ -58,10 +55,10 @@ pub struct Form {
 impl Form {
     /// Of a log, with why it was not read if so.
     #[must_use]
-    pub fn new(parts: Parts, why: Option<String>, topics: Vec<Topic>) -> Self {
+    pub fn new(parts: Parts, why: Option<String>) -> Self {
         let none = BTreeMap::new();
         let (rows, headers, guessed, chosen) = (Vec::new(), Vec::new(), none.clone(), none);
-        let mut form = Self { parts, why, rows, headers, guessed, chosen, topics, awaits: false };
+        let mut form = Self { parts, why, rows, headers, guessed, chosen, awaits: false };
         form.look();
         form
     }
@@ -102,6 +99,8 @@ impl Form {
 
     /// Takes a change.
     pub fn edit(&mut self, edit: Edit) {
+        // A dialog that was left without a file waits for none.
+        self.awaits = edit == Edit::Second;
         let asked = &mut self.parts.asked;
         match edit {
             Edit::Column(role, Some(place)) => {
@@ -128,10 +127,11 @@ impl Form {
                 self.look();
             }
             Edit::Tool(tool) => asked.options.tool = Some(tool).filter(|tool| !tool.trim().is_empty()),
-            Edit::Topic(topic, read) => {
-                asked.options.topics.retain(|known| *known != topic);
+            Edit::Topic(topic, second, read) => {
+                let topics = if second { &mut asked.second_topics } else { &mut asked.options.topics };
+                topics.retain(|known| *known != topic);
                 if read {
-                    asked.options.topics.push(topic);
+                    topics.push(topic);
                 }
             }
             Edit::Motion(motion) => {
@@ -140,7 +140,7 @@ impl Form {
                     self.parts.commands = None;
                 }
             }
-            Edit::Second => self.awaits = true,
+            Edit::Second => {}
             Edit::FitFrame(fit) => asked.fit_frame = fit,
             Edit::OwnRate(own) => asked.own_rate = own,
         }
@@ -151,6 +151,8 @@ impl Form {
         self.awaits = false;
         self.parts.asked.motion = false;
         self.parts.commands = Some(file);
+        self.parts.topics[1].clear();
+        self.parts.asked.second_topics.clear();
     }
 
     /// The log with what was filled in.
@@ -184,11 +186,9 @@ fn named_unit(role: Role, header: &str) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::log::file::Asked;
-
     fn form(text: &str) -> Form {
         let file = File::here("a.csv", text.as_bytes().to_vec());
-        Form::new(Parts { file, commands: None, asked: Asked::default() }, None, Vec::new())
+        Form::new(Parts::new(file), None)
     }
 
     #[test]
@@ -203,7 +203,7 @@ mod tests {
         form.edit(Edit::Column(Role::Y, None));
         assert!(!form.chosen.contains_key(&Role::Y));
         // Opened again, it shows what was filled in.
-        let again = Form::new(form.filled(), None, Vec::new());
+        let again = Form::new(form.filled(), None);
         assert_eq!(again.chosen.get(&Role::Time), Some(&(0, "ms")));
     }
 

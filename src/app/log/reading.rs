@@ -25,8 +25,8 @@ enum Work {
 pub struct Refused {
     /// In words, without full stop.
     pub why: String,
-    /// The topics that the file has, as far as it was read.
-    pub topics: Vec<Topic>,
+    /// The topics that the file has, as far as it was read; the desk puts them where they belong.
+    topics: Vec<Topic>,
 }
 
 impl From<LogError> for Refused {
@@ -104,7 +104,11 @@ impl Desk {
     fn options(&self, parts: &Parts, second: bool) -> Options {
         let asked = Options { frame_rate: Some(self.frame_rate), ..parts.asked.options.clone() };
         // As the command has it: what is said of columns is said of the log.
-        if second { Options { mappings: Vec::new(), format: None, ..asked } } else { asked }
+        if second {
+            Options { mappings: Vec::new(), format: None, topics: parts.asked.second_topics.clone(), ..asked }
+        } else {
+            asked
+        }
     }
 
     fn begin(&mut self, parts: Parts, first: Option<Log>) {
@@ -180,21 +184,29 @@ impl Desk {
             Some(early) => return Some(early),
             None => self.step()?,
         };
-        let Reading { parts, first, .. } = self.reading.take()?;
+        let Reading { mut parts, first, .. } = self.reading.take()?;
+        let topics = match &outcome {
+            Ok(log) => &log.topics,
+            Err(refused) => &refused.topics,
+        };
+        parts.topics[usize::from(first.is_some())].clone_from(topics);
+        let named = |refused: Refused, parts: &Parts| {
+            let name = parts.commands.as_ref().map_or("", |file| &file.name);
+            Refused { why: format!("{name}: {}", refused.why), ..refused }
+        };
         match (outcome, first) {
             (Ok(log), None) if parts.commands.is_some() && !parts.asked.motion => {
                 self.begin(parts, Some(log));
                 None
             }
             (Ok(commands), Some(mut log)) => {
-                let name = parts.commands.as_ref().map_or(String::new(), |file| format!("{}: ", file.name));
-                let taken = log.take_commands(commands);
-                let taken = taken.map_err(|error| Refused { why: format!("{name}{error}"), topics: Vec::new() });
+                let name = parts.commands.as_ref().map_or("", |file| &file.name);
+                let taken = log.take_commands(commands, name).map_err(|error| named(error.into(), &parts));
                 Some((parts, taken.map(|()| log)))
             }
             (Err(refused), Some(_)) => {
-                let name = parts.commands.as_ref().map_or(String::new(), |file| format!("{}: ", file.name));
-                Some((parts, Err(Refused { why: format!("{name}{}", refused.why), ..refused })))
+                let refused = named(refused, &parts);
+                Some((parts, Err(refused)))
             }
             (outcome, None) => Some((parts, outcome)),
         }

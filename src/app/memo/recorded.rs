@@ -2,7 +2,9 @@
 
 use std::rc::Rc;
 
+use crate::app::words::refusal;
 use centrode_core::detect::outlook::{Outlook, outlooks};
+use centrode_core::record::log::assemble::rated;
 use centrode_core::record::log::frame::Setting;
 use centrode_core::record::log::{Commands, Log, LogError, Rate, Report, Setup, assemble};
 use centrode_core::run::Run;
@@ -39,9 +41,11 @@ impl Recorded {
     /// When the two do not fit, or the log is longer than [`MAX_SAMPLES`].
     pub fn new(log: Rc<Log>, setup: Setup, scenario: &Scenario) -> Result<(Self, Run), LogError> {
         let setup = Setup { most: Some(MAX_SAMPLES), ..setup };
+        let loop_rate = rated(&log, scenario, setup.rate)?.loop_rate;
+        // Before it is assembled, which would refuse in SI.
+        let plan = plan(scenario, loop_rate)
+            .map_err(|refused| LogError::file(format!("with this log, {}", refusal::told(&refused))))?;
         let made = assemble(&log, scenario, &setup)?;
-        let loop_rate = made.plan.scenario().loop_rate;
-        let plan = plan(scenario, loop_rate).map_err(|error| LogError::file(format!("with this log, {error}")))?;
         let run = Run::recorded(plan, made.recording);
         let run = run.ok_or_else(|| LogError::file("holds no row that can be used"))?;
         let outlooks = outlooks(&log, made.commands);

@@ -153,11 +153,18 @@ fn format(ui: &mut Ui, form: &Form, theme: &Theme, out: &mut Vec<Command>) {
             }
         });
     }
-    for topic in &form.topics {
-        let mut read = form.parts.asked.options.topics.contains(&topic.name);
+    topics(ui, form, false, out);
+}
+
+/// The topics of the log or of the second file.
+fn topics(ui: &mut Ui, form: &Form, second: bool, out: &mut Vec<Command>) {
+    let asked = &form.parts.asked;
+    let chosen = if second { &asked.second_topics } else { &asked.options.topics };
+    for topic in &form.parts.topics[usize::from(second)] {
+        let mut read = chosen.contains(&topic.name);
         let said = format!("{} ({}, {} messages)", topic.name, topic.schema, topic.messages);
         if ui.checkbox(&mut read, said).changed() {
-            edit(out, Edit::Topic(topic.name.clone(), read));
+            edit(out, Edit::Topic(topic.name.clone(), second, read));
         }
     }
 }
@@ -221,6 +228,9 @@ fn commands(ui: &mut Ui, form: &Form, theme: &Theme, out: &mut Vec<Command>) {
     let words = second.map_or("a second file …".to_owned(), |file| format!("a second file: {}", file.name));
     if ui.radio(second.is_some() && !asked.motion, words).clicked() {
         edit(out, Edit::Second);
+    }
+    if second.is_some() && !asked.motion {
+        topics(ui, form, true, out);
     }
     heading(ui, "Frame and loop", theme);
     let mut fit = asked.fit_frame;

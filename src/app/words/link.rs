@@ -51,6 +51,16 @@ pub fn not_saved(name: &str, why: &str) -> Notice {
     Notice { text: format!("{}.", sentence(why)), rows: Vec::new(), details: format!("{title}: {why}"), title }
 }
 
+/// What is said of a state that is too long for an address.
+#[must_use]
+pub fn not_held() -> Notice {
+    let title = "The address does not hold this scenario".to_owned();
+    let text = "A link to it would be longer than 8 kB, and programs that links pass through would cut it. Reloading the page goes back \
+                to what the address held last: keep this scenario as a file, by Share, Save scenario."
+        .to_owned();
+    Notice { details: format!("{title}\n{text}"), title, text, rows: Vec::new() }
+}
+
 /// What is said of a file that was not opened.
 #[must_use]
 pub fn not_opened(name: &str, why: &str) -> Notice {

@@ -119,15 +119,13 @@ pub struct Assembled {
 pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembled, LogError> {
     let mut report = log.report.clone();
     let times = clock::times(log)?;
-    let mut scenario = scenario.clone();
-    if setup.rate == Rate::Log {
-        scenario.loop_rate = clock::rate(times)?;
-    }
+    let scenario = rated(log, scenario, setup.rate)?;
     let plan = Plan::new(&scenario).map_err(|error| LogError::file(format!("with this log, {error}")))?;
     let source = source(log, setup.commands)?;
     let start = clock::start(times[0], log.origin, &scenario, &mut report);
     let most = setup.most.map_or(MAX_ENTRIES, |most| most.min(MAX_ENTRIES));
-    let ticks = Ticks::new(times, scenario.loop_rate, most, &mut report)?;
+    let rows = log.readings.len() + log.commands.len() + log.joints.len() + log.forces.len();
+    let ticks = Ticks::new((times, rows), scenario.loop_rate, most, &mut report)?;
     let ordered = ordered(log, &plan, &mut report)?;
     let commanded = |at: f64| commanded(source, &plan, &ordered, at, start);
     let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);
@@ -170,15 +168,28 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start: log.origin + start, fit })
 }
 
+/// A scenario at the rate of a log's loop.
+///
+/// # Errors
+/// When the log is to say how fast it was, and does not.
+pub fn rated(log: &Log, scenario: &Scenario, rate: Rate) -> Result<Scenario, LogError> {
+    let loop_rate = match rate {
+        Rate::Scenario => scenario.loop_rate,
+        Rate::Log => clock::rate(clock::times(log)?)?,
+    };
+    Ok(Scenario { loop_rate, ..scenario.clone() })
+}
+
 /// Where the commands come from.
 fn source(log: &Log, asked: Option<Commands>) -> Result<Commands, LogError> {
     let otherwise = if log.has_commands() { Commands::Log } else { Commands::Estimated };
     match asked.unwrap_or(otherwise) {
         Commands::Log if !log.has_commands() => Err(LogError::file("holds no command")),
-        Commands::Estimated if !log.has_orientation() => Err(LogError::file(
-            "holds no command, and no orientation to estimate the bend from: give a second file, or the scenario's motion, with \
-             --commands",
-        )),
+        Commands::Estimated if !log.has_orientation() => {
+            let what = "holds no command, and no orientation to estimate the bend from: give a second file with commands, or take \
+                        the scenario's motion";
+            Err(LogError::file(what).or(", with --commands"))
+        }
         source => Ok(source),
     }
 }
@@ -202,18 +213,23 @@ fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogE
         report.notes.push(format!("the log has no δ: motion.delta = {told} is taken"));
     }
     let track = if log.commands.is_empty() {
-        (&log.joints.times, &log.joints.lines)
+        (&log.joints.times, &log.joints.lines, &log.joints.file)
     } else {
-        (&log.commands.times, &log.commands.lines)
+        (&log.commands.times, &log.commands.lines, &log.commands.file)
     };
     for ([bend, _], line) in values.iter().zip(track.1) {
         if let Some(allowed) = bend_refused(segment, *bend) {
             let what = format!("a commanded bend of {bend} rad: the model does not reach so far; is the unit right?");
             let allowed = allowed.words(Quantity::Angle, Units::Si);
-            return Err(LogError { place: Place::line(u64::from(*line)), what, allowed, way: "".into() });
+            return Err(LogError {
+                place: Place { name: track.2.clone(), ..Place::line(u64::from(*line)) },
+                what,
+                allowed,
+                way: "".into(),
+            });
         }
     }
-    Ok(Track { times: track.0.clone(), lines: track.1.clone(), values })
+    Ok(Track { times: track.0.clone(), lines: track.1.clone(), values, file: track.2.clone() })
 }
 
 /// The configuration commanded at a time (s) on the log's clock, when that is known.

@@ -55,7 +55,10 @@ impl LogError {
     /// In words without full stop, for whoever has no flags to give.
     #[must_use]
     pub fn without_flags(&self) -> String {
-        told(self, "")
+        let said = told(self, "");
+        // On the command line the file's name stands before it.
+        let lacks_subject = ["is ", "holds ", "has "].iter().any(|verb| said.starts_with(verb));
+        if lacks_subject { format!("The file {said}") } else { said }
     }
 }
 

@@ -96,8 +96,9 @@ impl Fit {
 
 /// A marker whose orientation is off by more than this, rad, is mounted in another way: 1°.
 const MOUNTED: f64 = 0.017_453_292_519_943_295;
-/// Steps of fitting the frame and the marker in turn.
+/// Most steps of fitting the frame and the marker in turn, and a step that is rounding alone.
 const TURNS: usize = 200;
+const SETTLED: f64 = 1e-14;
 /// A rotation less well determined than this is a guess.
 const DETERMINED: f64 = 1e-4;
 
@@ -138,7 +139,7 @@ fn moved(readings: &Track<6>, frame: &Frame, marker: &Mat3) -> Track<6> {
         [position.x, position.y, position.z, turned[0], turned[1], turned[2]]
     };
     let values = readings.values.iter().map(turn).collect();
-    Track { times: readings.times.clone(), lines: readings.lines.clone(), values }
+    Track { times: readings.times.clone(), lines: readings.lines.clone(), values, file: readings.file.clone() }
 }
 
 /// A reading and where the model has the marker.
@@ -197,10 +198,17 @@ fn fit(pairs: &[Pair], length: f64, armed_from: f64) -> Result<(Fit, Mat3), LogE
         .iter()
         .map(|pair| (pair.model_position - model_centre) * (pair.position - centre).transpose() * scale)
         .sum();
-    let rotations = |marker: &Mat3| -> Mat3 {
-        let of = |pair: &Pair| Some(pair.model_rotation * (pair.rotation? * marker).transpose());
-        pairs.iter().filter_map(of).sum()
-    };
+    // Both sums over the pairs below are linear in the other rotation: one pass is enough for all steps.
+    let mut sums = [[Mat3::zeros(); 3]; 3];
+    for (measured, model) in pairs.iter().filter_map(|pair| Some((pair.rotation?, pair.model_rotation))) {
+        for (i, row) in sums.iter_mut().enumerate() {
+            for (j, sum) in row.iter_mut().enumerate() {
+                *sum += measured.row(j).transpose() * model.row(i);
+            }
+        }
+    }
+    let rotations = |marker: &Mat3| Mat3::from_fn(|i, j| sums[i][j].dot(marker));
+    let markers = |rotation: &Mat3| -> Mat3 { (0..9).map(|k| sums[k / 3][k % 3] * rotation[(k / 3, k % 3)]).sum() };
     let (from_positions, certain) = best(&positions);
     let (mut rotation, gap) = best(&(positions + rotations(&Mat3::identity())));
     if gap < DETERMINED {
@@ -214,9 +222,11 @@ fn fit(pairs: &[Pair], length: f64, armed_from: f64) -> Result<(Fit, Mat3), LogE
         turned = true;
         rotation = from_positions;
         for _ in 0..TURNS {
-            let of = |pair: &Pair| Some((rotation * pair.rotation?).transpose() * pair.model_rotation);
-            marker = best(&pairs.iter().filter_map(of).sum()).0;
-            rotation = best(&(positions + rotations(&marker))).0;
+            marker = best(&markers(&rotation)).0;
+            let before = std::mem::replace(&mut rotation, best(&(positions + rotations(&marker))).0);
+            if (rotation - before).norm() < SETTLED {
+                break;
+            }
         }
     }
     let shift = model_centre - rotation * centre;

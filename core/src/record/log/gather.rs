@@ -14,11 +14,13 @@ pub struct Track<const D: usize> {
     pub lines: Vec<u32>,
     /// The values.
     pub values: Vec<[f64; D]>,
+    /// Name of the second file that holds them; empty for the log's own.
+    pub file: String,
 }
 
 impl<const D: usize> Default for Track<D> {
     fn default() -> Self {
-        Self { times: Vec::new(), lines: Vec::new(), values: Vec::new() }
+        Self { times: Vec::new(), lines: Vec::new(), values: Vec::new(), file: String::new() }
     }
 }
 

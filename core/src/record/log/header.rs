@@ -202,7 +202,7 @@ fn with_unit(header: &str) -> (&str, Option<&str>) {
 }
 
 /// Letters and digits alone, small.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 

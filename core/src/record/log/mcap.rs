@@ -39,8 +39,15 @@ pub struct McapReader {
     chunk: Vec<u8>,
     within: usize,
     schemas: BTreeMap<u16, String>,
-    channels: BTreeMap<u16, Channel>,
+    channels: Vec<Channel>,
+    /// Places of channels by number; those of one topic, schema and encoding are one, as when two programs publish it.
+    places: BTreeMap<u16, usize>,
+    known: BTreeMap<[String; 3], usize>,
     wanted: Vec<String>,
+    /// Whether those may be of another file.
+    partly: bool,
+    /// Whether one of those tells where the marker is: then no other pose is read.
+    pose_chosen: bool,
     messages: u64,
     /// What stamps are counted from, ns.
     origin: Option<i64>,
@@ -71,8 +78,12 @@ impl McapReader {
             chunk: Vec::new(),
             within: 0,
             schemas: BTreeMap::new(),
-            channels: BTreeMap::new(),
+            channels: Vec::new(),
+            places: BTreeMap::new(),
+            known: BTreeMap::new(),
             wanted: options.topics.clone(),
+            partly: options.partly,
+            pose_chosen: false,
             messages: 0,
             origin: None,
             cut: false,
@@ -81,7 +92,7 @@ impl McapReader {
 
     /// The topics seen so far.
     pub fn topics(&self) -> impl Iterator<Item = &Topic> {
-        self.channels.values().map(|channel| &channel.topic)
+        self.channels.iter().map(|channel| &channel.topic)
     }
 
     /// Reads at most `count` more records.
@@ -158,10 +169,17 @@ impl McapReader {
                     ids.zip(names).ok_or_else(|| LogError::line(self.messages, "a channel is cut"))?;
                 let schema = self.schemas.get(&schema).cloned().unwrap_or_default();
                 let kind = Kind::of(&schema).zip(Encoding::of(&encoding));
-                let topic = Topic { name, schema, encoding, messages: 0 };
+                self.pose_chosen |= kind.is_some_and(|(kind, _)| kind.is_pose()) && self.wanted.contains(&name);
+                let place =
+                    *self.known.entry([name, schema, encoding]).or_insert_with_key(|[name, schema, encoding]| {
+                        let [name, schema, encoding] = [name, schema, encoding].map(String::clone);
+                        let topic = Topic { name, schema, encoding, messages: 0 };
+                        let log = Log::new(Format::Mcap, Vec::new());
+                        self.channels.push(Channel { topic, kind, clock: Clock::default(), log });
+                        self.channels.len() - 1
+                    });
                 // Channels are often repeated.
-                let log = Log::new(Format::Mcap, Vec::new());
-                self.channels.entry(id).or_insert(Channel { topic, kind, clock: Clock::default(), log });
+                self.places.entry(id).or_insert(place);
             }
             op::MESSAGE => return self.message(fields),
             _ => {}
@@ -174,15 +192,16 @@ impl McapReader {
         let number = self.messages;
         let head = fields.u16().zip(fields.u32()).zip(fields.u64().zip(fields.u64()));
         let ((id, _), (logged, _)) = head.ok_or_else(|| LogError::line(number, "a message is cut"))?;
-        let channel = self.channels.get_mut(&id).ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
-        channel.topic.messages += 1;
-        let Some((kind, encoding)) = channel.kind else { return Ok(()) };
-        let wanted = &self.wanted;
-        if !wanted.is_empty() && !wanted.contains(&channel.topic.name) && kind.is_pose() {
+        let channel = self.places.get(&id).and_then(|place| self.channels.get_mut(*place));
+        let Channel { topic, kind, clock, log } =
+            channel.ok_or_else(|| LogError::line(number, "a message is of no channel"))?;
+        topic.messages += 1;
+        let Some((kind, encoding)) = *kind else { return Ok(()) };
+        if self.pose_chosen && kind.is_pose() && !self.wanted.contains(&topic.name) {
             return Ok(());
         }
         let refuse = |what: String| LogError {
-            place: Place { line: Some(number), column: None, name: channel.topic.name.clone() },
+            place: Place { line: Some(number), column: None, name: topic.name.clone() },
             what: format!("the message {what}"),
             allowed: String::new(),
             way: "".into(),
@@ -190,8 +209,8 @@ impl McapReader {
         let (stamp, content) = read(kind, encoding, fields.0).map_err(refuse)?;
         let stamp = stamp.unwrap_or(logged.cast_signed());
         // Doubles of seconds since 1970 would lose the nanoseconds.
-        const LONG: i64 = 1_000_000 * 1_000_000_000;
-        let origin = *self.origin.get_or_insert(if stamp.abs() > LONG { stamp } else { 0 });
+        const LONG: u64 = 1_000_000 * 1_000_000_000;
+        let origin = *self.origin.get_or_insert(if stamp.unsigned_abs() > LONG { stamp } else { 0 });
         let time = stamp.saturating_sub(origin) as f64 / 1e9;
         let numbers = match &content {
             Content::Pose(position, quaternion) => [&position[..], &quaternion[..]].concat(),
@@ -201,19 +220,17 @@ impl McapReader {
         if let Some(number) = numbers.iter().find(|number| number.abs() > Dimension::Length.most()) {
             return Err(refuse(format!("holds {number}, which is far too large")));
         }
-        channel.log.report.rows += 1;
-        if !channel.clock.takes(time, || Place::line(number), &mut channel.log.report) {
+        log.report.rows += 1;
+        if !clock.takes(time, || Place::line(number), &mut log.report) {
             return Ok(());
         }
-        let log = &mut channel.log;
         match content {
             Content::Pose(position, quaternion) => {
                 log.reading(time, number, position, Orientation::Quaternion(quaternion));
             }
             Content::Wrench(force) => log.forces(time, number, force),
             Content::Joints(names, positions, efforts) => {
-                return joints(log, time, number, &names, &positions, &efforts)
-                    .map_err(|what| refuse_in(&channel.topic.name, number, what));
+                return joints(log, time, number, &names, &positions, &efforts).map_err(refuse);
             }
         }
         Ok(())
@@ -224,16 +241,16 @@ impl McapReader {
     /// # Errors
     /// When several topics could be meant.
     pub fn finish(self) -> Result<Log, LogError> {
-        let Self { channels, wanted, messages, origin, cut, .. } = self;
+        let Self { channels, wanted, partly, messages, origin, cut, .. } = self;
         let listed = |kept: &dyn Fn(&Topic) -> bool| {
             let told = |channel: &Channel| {
                 let Topic { name, schema, messages, .. } = &channel.topic;
                 format!("{name} ({schema}, {messages} messages)")
             };
-            channels.values().filter(|channel| kept(&channel.topic)).map(told).collect::<Vec<_>>().join(", ")
+            channels.iter().filter(|channel| kept(&channel.topic)).map(told).collect::<Vec<_>>().join(", ")
         };
         for name in &wanted {
-            if !channels.values().any(|channel| channel.topic.name == *name) {
+            if !partly && !channels.iter().any(|channel| channel.topic.name == *name) {
                 let what = format!("there is no topic {}", quoted(name.as_bytes()));
                 return Err(LogError { allowed: listed(&|_| true), ..LogError::file(what) });
             }
@@ -241,6 +258,7 @@ impl McapReader {
         let mut log = Log::new(Format::Mcap, Vec::new());
         log.origin = origin.unwrap_or(0) as f64 / 1e9;
         log.report.rows = messages;
+        log.topics = channels.iter().map(|channel| channel.topic.clone()).collect();
         if cut {
             log.report.add(Happening::Cut, Place::line(messages), None);
         }
@@ -252,23 +270,23 @@ impl McapReader {
             ("the load cells", |kind| kind == Kind::Wrench),
         ];
         for (what, of) in roles {
-            let mut fitting: Vec<u16> = channels
+            let mut fitting: Vec<&Channel> = channels
                 .iter()
-                .filter(|(_, channel)| channel.kind.is_some_and(|(kind, _)| of(kind)) && channel.topic.messages > 0)
-                .map(|(id, _)| *id)
+                .filter(|channel| channel.kind.is_some_and(|(kind, _)| of(kind)) && channel.topic.messages > 0)
                 .collect();
-            if fitting.iter().any(|id| wanted.contains(&channels[id].topic.name)) {
-                fitting.retain(|id| wanted.contains(&channels[id].topic.name));
+            let chosen = |channel: &&Channel| wanted.contains(&channel.topic.name);
+            if fitting.iter().any(chosen) {
+                fitting.retain(chosen);
             }
             if fitting.len() > 1 {
-                let names: Vec<&String> = fitting.iter().map(|id| &channels[id].topic.name).collect();
+                let names: Vec<&String> = fitting.iter().map(|channel| &channel.topic.name).collect();
                 let what = format!("several topics could be {what}");
                 return Err(LogError {
                     allowed: listed(&|topic| names.contains(&&topic.name)),
                     ..LogError::file(what).or(": choose one with --topic")
                 });
             }
-            let Some(channel) = fitting.first().and_then(|id| channels.get(id)) else { continue };
+            let Some(channel) = fitting.first() else { continue };
             let part = &channel.log;
             for (place, role) in roles_of(part).into_iter().enumerate() {
                 let header = format!("{} {}", channel.topic.name, role.key());
@@ -301,17 +319,12 @@ impl McapReader {
             }));
         }
         let unread = |topic: &Topic| Kind::of(&topic.schema).is_some() && Encoding::of(&topic.encoding).is_none();
-        if channels.values().any(|channel| unread(&channel.topic)) {
+        if channels.iter().any(|channel| unread(&channel.topic)) {
             log.report.notes.push(format!("not read, neither CDR nor JSON: {}", listed(&unread)));
         }
         log.columns = columns;
         Ok(log)
     }
-}
-
-fn refuse_in(topic: &str, message: u64, what: String) -> LogError {
-    let place = Place { line: Some(message), column: None, name: topic.into() };
-    LogError { place, what, allowed: String::new(), way: "".into() }
 }
 
 /// What a topic's messages held.

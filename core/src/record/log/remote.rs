@@ -36,7 +36,7 @@ impl Request {
     /// To read a file in a way.
     #[must_use]
     pub fn new(id: u32, file: u32, name: &str, options: &Options) -> Self {
-        let Options { format, mappings, min_quality, tool, frame_rate, topics } = options;
+        let Options { format, mappings, min_quality, tool, frame_rate, topics, partly: _ } = options;
         Self {
             id,
             file,
@@ -58,6 +58,7 @@ impl Request {
             tool: self.tool.clone(),
             frame_rate: self.frame_rate,
             topics: self.topics.clone(),
+            partly: false,
         })
     }
 }
@@ -118,6 +119,7 @@ struct Packed {
     joints: Values,
     forces: Values,
     origin: f64,
+    topics: Vec<Topic>,
     report: Report,
 }
 
@@ -147,13 +149,14 @@ impl Values {
         let (values, rest) = self.values.as_chunks::<D>();
         let count = self.times.len();
         let whole = rest.is_empty() && values.len() == count && self.lines.len() == count;
-        whole.then(|| Track { values: values.to_vec(), times: self.times, lines: self.lines })
+        let file = String::new();
+        whole.then(|| Track { values: values.to_vec(), times: self.times, lines: self.lines, file })
     }
 }
 
 impl Packed {
     fn of(log: Log) -> Self {
-        let Log { format, columns, readings, commands, joints, forces, origin, report } = log;
+        let Log { format, columns, readings, commands, joints, forces, origin, topics, report } = log;
         let column = |Column { place, header, role, unit, unit_given, origin }| PackedColumn {
             place: place as u64,
             header,
@@ -170,6 +173,7 @@ impl Packed {
             joints: Values::of(joints),
             forces: Values::of(forces),
             origin,
+            topics,
             report,
         }
     }
@@ -191,6 +195,7 @@ impl Packed {
             joints: self.joints.track()?,
             forces: self.forces.track()?,
             origin: self.origin,
+            topics: self.topics,
             report: self.report,
         })
     }

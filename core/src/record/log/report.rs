@@ -199,16 +199,19 @@ impl Report {
     /// How often something happened.
     #[must_use]
     pub fn count(&self, what: Happening) -> u64 {
-        self.counts.iter().find(|count| count.what == what).map_or(0, |count| count.count)
+        self.counts.iter().filter(|count| count.what == what).map(|count| count.count).sum()
     }
 
-    /// Adds what a second file was found to hold; its rows count as its own.
-    pub fn merge(&mut self, other: &Self) {
+    /// Adds what a second file was found to hold, each with the file's name; its rows count as the log's.
+    pub fn merge(&mut self, other: &Self, name: &str) {
         self.rows += other.rows;
-        for Count { what, count, first, time } in &other.counts {
-            self.add_many(*what, *count, first.clone(), *time);
+        for count in &other.counts {
+            let within = &count.first.name;
+            let named = if within.is_empty() { name.into() } else { format!("{name}, {within}") };
+            let place = self.counts.partition_point(|known| known.what <= count.what);
+            self.counts.insert(place, Count { first: Place { name: named, ..count.first.clone() }, ..count.clone() });
         }
-        self.notes.extend(other.notes.iter().cloned());
+        self.notes.extend(other.notes.iter().map(|note| format!("{name}: {note}")));
     }
 
     /// Everything in sentences without full stop, one each.

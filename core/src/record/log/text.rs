@@ -189,13 +189,14 @@ fn all<const N: usize>(
 /// The time of a row, s. Whole numbers too large for a double lose no digits: they are counted from the first.
 fn time(cells: &Cells, numbers: &mut Numbers, row: &Row, origin: &mut Option<i64>, line: u64) -> Result<f64, LogError> {
     /// Beyond this, a double has no room for every whole number.
-    const LONG: i64 = 1 << 53;
+    const LONG: u64 = 1 << 53;
     /// Whole seconds with nanoseconds beside them: about as many seconds lose the nanoseconds.
-    const LONG_SECONDS: i64 = 1 << 20;
+    const LONG_SECONDS: u64 = 1 << 20;
     let slot = &row.time;
     let whole = std::str::from_utf8(cells.get(slot.place)).ok().and_then(|text| text.parse::<i64>().ok());
     let least = if row.nanoseconds.is_some() { LONG_SECONDS } else { LONG };
-    let Some(whole) = whole.filter(|whole| origin.is_some_and(|origin| origin != 0) || whole.abs() > least) else {
+    let Some(whole) = whole.filter(|whole| origin.is_some_and(|origin| origin != 0) || whole.unsigned_abs() > least)
+    else {
         let whole = origin.get_or_insert(0);
         let time = value(cells, numbers, slot, line)? - slot.unit.si(*whole as f64);
         let more = row.nanoseconds.as_ref().map_or(Ok(0.0), |slot| value(cells, numbers, slot, line))?;

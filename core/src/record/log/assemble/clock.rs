@@ -57,17 +57,34 @@ pub struct Ticks<'a> {
     count: usize,
 }
 
+/// More instants than this for each value of a log are no recording.
+const SPARSE: f64 = 10_000.0;
 /// A row this near to an instant, in steps, is the instant's own.
 const NEAR: f64 = 0.25;
 
 impl<'a> Ticks<'a> {
-    /// From the first row to the last, at `rate` (Hz), at most so many.
-    pub fn new(times: &'a [f64], rate: f64, most: usize, report: &mut Report) -> Result<Self, LogError> {
+    /// From the first row to the last, at `rate` (Hz), at most so many; `rows` is how many values the log has in all.
+    pub fn new(
+        (times, rows): (&'a [f64], usize),
+        rate: f64,
+        most: usize,
+        report: &mut Report,
+    ) -> Result<Self, LogError> {
         let (first, last) = (times[0], times[times.len() - 1]);
         let steps = floor((last - first) * rate + 0.5);
         if steps >= most as f64 {
             let what = format!(
                 "{} s at {} Hz are {} instants of the loop, and at most {most} can be kept: cut the log, or set loop_rate lower",
+                number(last - first),
+                number(rate),
+                number(steps + 1.0)
+            );
+            return Err(LogError::file(what));
+        }
+        // Memory is bounded by what the log holds, and so far apart nothing is held.
+        if steps > SPARSE * rows as f64 {
+            let what = format!(
+                "{} s at {} Hz are {} instants of the loop from {rows} values: is the unit of the time right?",
                 number(last - first),
                 number(rate),
                 number(steps + 1.0)

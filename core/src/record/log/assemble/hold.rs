@@ -60,9 +60,16 @@ impl<'a, const D: usize> Held<'a, D> {
         report.add_many(held, *holds, Place::default(), Some(first_held - start));
         report.add_many(gap, *misses, Place::default(), Some(first_missing - start));
         let line = self.track.lines.get(*first).map_or(0, |line| u64::from(*line));
-        report.add_many(Happening::PassedOver, *passed, Place::line(line), None);
+        let place = Place { name: self.track.file.clone(), ..Place::line(line) };
+        report.add_many(Happening::PassedOver, *passed, place, None);
         if *misses > 0 {
-            report.notes.push(format!("a value is held for at most {} s", crate::scenario::text::number(self.limit)));
+            let what = match held {
+                Happening::HeldReading => "reading",
+                Happening::HeldCommand => "command",
+                _ => "load cell's value",
+            };
+            let limit = crate::scenario::text::number(self.limit);
+            report.notes.push(format!("a {what} is held for at most {limit} s"));
         }
     }
 }

@@ -96,8 +96,8 @@ fn csv(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
         let named = |place: usize| if options.mappings.is_empty() { None } else { Some(format!("#{}", place + 1)) };
         let names: Option<Vec<String>> = (0..headers.len()).map(named).collect();
         let what = "holds numbers, not the names of columns: add a header as in \"time [s],x [mm],…\", or say which column is \
-                    what with --map time=#1 and so on";
-        let names = names.ok_or_else(|| LogError::line(first.number, what))?;
+                    what";
+        let names = names.ok_or_else(|| LogError::line(first.number, what).or(" with --map time=#1 and so on"))?;
         let columns = columns(&names, first.number, &options.mappings)?;
         let line = first.number;
         lines.back(&first);

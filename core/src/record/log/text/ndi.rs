@@ -5,7 +5,7 @@ use super::lines::{Cells, Delimiter, Lines};
 use super::row::{Row, Slot};
 use crate::record::log::Options;
 use crate::record::log::error::{LogError, quoted};
-use crate::record::log::header::{Column, Role};
+use crate::record::log::header::{Column, Role, plain};
 use crate::record::log::units::{Dimension, Unit};
 
 /// Where the columns of one tool are in a row.
@@ -29,11 +29,6 @@ pub struct Groups {
 
 /// Status, x, y, z.
 const MARKER: usize = 4;
-
-/// Letters and digits alone, small.
-fn plain(name: &str) -> String {
-    name.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
-}
 
 /// Whether a header begins a tool's group.
 fn begins(name: &str) -> bool {

@@ -2,6 +2,7 @@
 
 use super::lines::Numbers;
 use crate::record::log::error::quoted;
+use crate::record::log::header::plain;
 
 /// Words of trackers, small.
 const GOOD: [&str; 9] = ["ok", "good", "valid", "tracked", "visible", "enabled", "true", "yes", "online"];
@@ -37,8 +38,7 @@ pub fn is_bad(cell: &[u8], numbers: &mut Numbers, least: Option<f64>, line: u64)
     if let Ok(value) = numbers.read(cell, line) {
         return Ok(!(value > 0.0 && least.is_none_or(|least| value >= least)));
     }
-    let word: String = String::from_utf8_lossy(cell).chars().filter(|c| c.is_alphanumeric()).collect();
-    let word = word.to_lowercase();
+    let word = plain(&String::from_utf8_lossy(cell));
     match (GOOD.contains(&word.as_str()), BAD.contains(&word.as_str())) {
         (true, _) => Ok(false),
         (_, true) => Ok(true),
