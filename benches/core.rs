@@ -3,7 +3,7 @@
 use centrode_core::model::{Assumption, Configuration, Constrained, Rate, locate};
 use centrode_core::run::{Simulation, simulate};
 use centrode_core::scenario::preset::find;
-use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::scenario::{ContactKind, Plan, Scenario};
 use centrode_core::study::Job;
 use centrode_core::study::map::MapJob;
 use centrode_core::study::table2::{PAPER_REPEATS, Table2Job};
@@ -36,7 +36,7 @@ fn model(c: &mut Criterion) {
 
 fn experiment(c: &mut Criterion) {
     let mut group = c.benchmark_group("simulate");
-    for name in ["paper", "bench"] {
+    for name in ["paper", "bench", "touch-2", "cylinder"] {
         let scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
         group.bench_function(name, |b| b.iter(|| simulate(black_box(&scenario))));
     }
@@ -49,13 +49,17 @@ fn experiment(c: &mut Criterion) {
 
 fn study(c: &mut Criterion) {
     let scenario = Scenario::default();
-    c.bench_function("map/100 × 100", |b| {
-        b.iter(|| {
-            let mut job = MapJob::new(black_box(&scenario), 100, 100).expect("valid");
-            job.finish();
-            job.map().deviation[5050]
+    let mut flat = scenario.clone();
+    flat.contact.kind = ContactKind::Plane;
+    for (name, scenario, cells) in [("map/100 × 100", &scenario, 100), ("map/30 × 30, a flat beam", &flat, 30)] {
+        c.bench_function(name, |b| {
+            b.iter(|| {
+                let mut job = MapJob::new(black_box(scenario), cells, cells).expect("valid");
+                job.finish();
+                job.map().deviation[cells * cells / 2]
+            });
         });
-    });
+    }
     let bench = find("bench").and_then(|preset| preset.scenario()).expect("bench");
     c.bench_function("table2/5 repeats", |b| {
         b.iter(|| {
