@@ -1,8 +1,8 @@
 //! What a run or a log comes to, printed.
 
-use super::analyze::About;
 use super::output::{Failure, json};
 use centrode_core::detect::{Detection, Event, Method};
+use centrode_core::study::about::About;
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 
