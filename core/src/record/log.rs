@@ -221,7 +221,7 @@ pub struct Reader {
 #[derive(Debug)]
 enum Inner {
     Text(Box<TextReader>),
-    Mcap(McapReader),
+    Mcap(Box<McapReader>),
 }
 
 impl Reader {
@@ -235,7 +235,7 @@ impl Reader {
         }
         let format = options.format.unwrap_or_else(|| Format::guess(name, &bytes));
         let inner = match format {
-            Format::Mcap => Inner::Mcap(McapReader::new(bytes, options)?),
+            Format::Mcap => Inner::Mcap(Box::new(McapReader::new(bytes, options)?)),
             text => Inner::Text(Box::new(TextReader::new(text, bytes, options)?)),
         };
         Ok(Self { inner })
