@@ -228,7 +228,9 @@ mod tests {
             let camera = home_camera(&run);
             for size in [Vec2::new(730.0, 500.0), Vec2::new(375.0, 320.0), Vec2::new(300.0, 600.0)] {
                 let mut high = f32::MAX;
-                for time in [0.0, 5.5, 6.5, 8.0] {
+                // Straight in between, the robot is highest.
+                let times = [0.0, 5.5, 6.5, 8.0].into_iter().chain((0..20).map(|k| 3.0 + 0.25 * f64::from(k)));
+                for time in times {
                     let scene = view(
                         &run,
                         &Trace::new(&run),

@@ -3,6 +3,7 @@
 //! Everything but the course of one run is a [`Job`] that works a piece at a time, so that a frame of the page, a worker or a loop on a
 //! terminal can drive it, and whose result may be looked at before it is complete. Same inputs, same bits.
 
+pub mod about;
 pub mod channels;
 pub mod course;
 pub mod export;

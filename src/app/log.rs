@@ -167,6 +167,6 @@ impl App {
     /// The command that judges the log that is shown by the scenario of a link.
     pub(super) fn log_command(&self, link: &Link) -> Option<String> {
         let (parts, recorded) = self.logs.shown.as_ref().zip(self.memo.recorded())?;
-        Some(link.analyze(&parts.file.name, &parts.flags(&number(recorded.loop_rate))))
+        Some(link.analyze(&parts.file.name, &parts.flags(&number(recorded.about.loop_rate))))
     }
 }

@@ -2,6 +2,8 @@
 //!
 //! Drawings and numbers are the bytes that the command writes of the same scenario; their captions end in its link.
 
+use std::borrow::Cow;
+
 use super::App;
 use crate::app::link::Effect;
 use crate::app::stages::stage::Stage;
@@ -145,7 +147,12 @@ impl App {
     /// Hands a file out, or says why there is none.
     pub(super) fn save(&mut self, subject: Subject, format: Format) {
         let (extension, kind) = format.file();
-        let what = if format == Format::Between { "run-a-to-b" } else { subject.keys().1 };
+        let what = match (subject, format, self.log()) {
+            (Subject::Plots, Format::Between, Some(_)) => "log-a-to-b",
+            (Subject::Plots, _, Some(_)) => "log",
+            (_, Format::Between, None) => "run-a-to-b",
+            _ => subject.keys().1,
+        };
         let name = name(what, self.made_of(subject).0, extension);
         if subject == Subject::View {
             if !self.view.save(name.clone(), format == Format::Clear) {
@@ -190,13 +197,20 @@ impl App {
         self.sharing.notice = Some(words::link::not_saved(name, why));
     }
 
-    /// Name of the preset and scenario that something is made of.
-    fn made_of(&self, subject: Subject) -> (&str, &Scenario) {
-        match (&self.source, subject) {
-            (Some(source), Subject::Figure(_) | Subject::Table) => (source.preset.name, &source.scenario),
-            // A log that is shown changes neither.
-            (_, Subject::Map | Subject::Tuning) => (&self.state.preset, self.memo.plan().scenario()),
-            _ => (&self.state.preset, self.memo.run().plan.scenario()),
+    /// Name of the preset or log, and the scenario, that something is made of.
+    fn made_of(&self, subject: Subject) -> (&str, Cow<'_, Scenario>) {
+        match (&self.source, subject, self.log()) {
+            (Some(source), Subject::Figure(_) | Subject::Table, _) => {
+                (source.preset.name, Cow::Borrowed(&source.scenario))
+            }
+            (_, Subject::Plots | Subject::View, Some(log)) => {
+                let stem = log.rsplit_once('.').map_or(log, |(stem, _)| stem);
+                // As the command has it: what judges the log, with the contact that is set and does nothing to it.
+                let contact = self.memo.plan().scenario().contact;
+                (stem, Cow::Owned(Scenario { contact, ..self.memo.run().plan.scenario().clone() }))
+            }
+            // A log that is shown changes neither map nor tuning.
+            _ => (&self.state.preset, Cow::Borrowed(self.memo.plan().scenario())),
         }
     }
 
@@ -206,10 +220,12 @@ impl App {
         match (format, subject) {
             (Format::Svg | Format::Png, _) => {
                 let page = Page { view: subject.keys().0, ..self.page_made(subject) };
-                Ok(paper::svg(&signed(self.chart(subject)?, self.made_of(subject).1, page)))
+                Ok(paper::svg(&signed(self.chart(subject)?, &self.made_of(subject).1, page)))
             }
             (Format::Json, _) => {
-                let report = Report::of(run).map_err(|refused| refused.to_string())?;
+                let about = self.memo.recorded().map(|recorded| &recorded.about);
+                let report = Report::of(run, self.made_of(subject).1.into_owned(), about)
+                    .map_err(|refused| refused.to_string())?;
                 let text = serde_json::to_string_pretty(&report).map_err(|error| error.to_string())?;
                 Ok(text + "\n")
             }
@@ -223,7 +239,7 @@ impl App {
             (Format::Csv, Subject::Plots) => Ok(channels::csv(run, f64::NEG_INFINITY, f64::INFINITY)),
             (Format::Csv | Format::Latex, Subject::Table) => match self.found()? {
                 Found::Table(table, _) if format == Format::Csv => Ok(table2::csv(table)),
-                Found::Table(table, _) => Ok(table2::latex(table, &made(self.made_of(subject).1, REPEATS))),
+                Found::Table(table, _) => Ok(table2::latex(table, &made(&self.made_of(subject).1, REPEATS))),
                 _ => Err(UNDONE.into()),
             },
             (Format::Csv, Subject::Map) => match self.found()? {
@@ -261,11 +277,18 @@ impl App {
         let scenario = self.made_of(subject).1;
         match subject {
             Subject::View => Err("The 3D view is no chart".into()),
-            Subject::Plots => Ok(timeline::chart(self.memo.run())),
+            Subject::Plots => Ok(match self.log() {
+                Some(name) => timeline::recorded(self.memo.run(), name),
+                None => timeline::chart(self.memo.run()),
+            }),
             Subject::Tuning => self.stages.tuning(&self.tuner).ok_or_else(|| UNDONE.into()),
             Subject::Figure(_) | Subject::Table | Subject::Map => match self.found()? {
                 Found::Figure(chart) => Ok(chart.clone()),
+<<<<<<< HEAD
                 Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (scenario, REPEATS))),
+=======
+                Found::Table(table, rows) => Ok(with_words(table, rows, (&scenario, REPEATS))),
+>>>>>>> main
                 Found::Map(found) => Ok(map::chart::chart(found, self.memo.plan())),
             },
         }

@@ -1,14 +1,9 @@
 //! `centrode analyze`: judge a log as a run is judged.
 
-mod about;
-
-pub use about::About;
-
 use super::ScenarioArgs;
 use super::draw::{self, Format as Drawing};
 use super::output::{Failure, NewFile, Table};
 use super::report::{Report, print, too_many};
-use centrode_core::chart::notation::plain;
 use centrode_core::detect::outlook::outlooks;
 use centrode_core::detect::{Method, Settings};
 use centrode_core::record::log::frame::{Frame, Setting};
@@ -18,9 +13,10 @@ use centrode_core::record::log::{
 use centrode_core::run::Replay;
 use centrode_core::scenario::link::Page;
 use centrode_core::scenario::{Scenario, Threshold};
+use centrode_core::study::about::About;
 use centrode_core::study::export::signed;
 use centrode_core::study::report::Tally;
-use centrode_core::study::timeline::{Timeline, judged};
+use centrode_core::study::timeline::Timeline;
 use clap::Args;
 use std::fs::File;
 use std::io::{Read, Write};
@@ -157,8 +153,8 @@ impl AnalyzeArgs {
             csv.finish()?;
         }
         if let (Some(mut file), Some(timeline), Some(drawing)) = (figure, timeline, drawing) {
-            let title = self.log.file_name().map_or(String::new(), |name| plain(&name.to_string_lossy()));
-            let chart = timeline.finish(title, judged(plan.scenario()), replay.events());
+            let name = self.log.file_name().map_or(String::new(), |name| name.to_string_lossy().into_owned());
+            let chart = timeline.of_log(&name, replay.events());
             draw::write(&mut file, &signed(chart, plan.scenario(), Page::default()), drawing)?;
             file.finish()?;
         }

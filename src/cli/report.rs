@@ -1,9 +1,12 @@
 //! What a run or a log comes to, printed.
 
-use super::analyze::About;
 use super::output::{Failure, json};
 use centrode_core::detect::{Detection, Event, Method};
+<<<<<<< HEAD
 use centrode_core::plant::{Happening, PlantEvent};
+=======
+use centrode_core::study::about::About;
+>>>>>>> main
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 

@@ -112,6 +112,29 @@ fn map_and_table_have_the_command_s_bytes() {
 }
 
 #[test]
+fn a_log_has_the_command_s_bytes() {
+    let mut page = page_of(DESK);
+    let file_of = |name: &str| format!("{}/assets/logs/{name}", env!("CARGO_MANIFEST_DIR"));
+    slide(&mut page, "ξ2 (centrode)", 6.0);
+    let log = std::fs::read(file_of("clean.csv")).expect("a log");
+    page.state_mut().as_mut().expect("built").opened("clean.csv", Ok(log));
+    page.run_steps(12);
+    assert_eq!(app(&page).log(), Some("clean.csv"));
+    let path = file_of("clean.csv");
+    let args = |flag: &'static str| {
+        ["analyze", &path, "--preset", "bench", "--set", "detection.xi2=0.006", flag].map(str::to_owned)
+    };
+    for (entry, flag, extension) in [("SVG", "--figure", "svg"), ("CSV", "--csv", "csv")] {
+        let (name, _, text) = file(saved(&mut page, "Save plots", entry));
+        assert_eq!(name, format!("log-clean.{extension}"));
+        let args = args(flag);
+        assert!(text == written(&args.each_ref().map(String::as_str), extension), "another {extension}");
+    }
+    let (name, _, text) = file(saved(&mut page, "Save plots", "JSON"));
+    assert_eq!((name.as_str(), text), ("log-clean.json", command(&args("--json").each_ref().map(String::as_str))));
+}
+
+#[test]
 fn the_map_beside_a_log_is_the_scenario_s() {
     let mut page = page_of(DESK);
     let log = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/logs/clean.csv")).expect("a log");

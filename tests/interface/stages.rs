@@ -129,7 +129,7 @@ fn table_ii_keeps_its_noise_where_the_page_has_none() {
     choose(&mut page, "Figure 4");
     assert_eq!(app(&page).state().scenario.tracker.position_noise, 0.0, "a preset without noise");
     show(&mut page, "Table II");
-    let ours = texts(&page, "Simulated by Centrode, disk").concat();
+    let ours = texts(&page, "Simulated: a beam that clamps, disk").concat();
     assert!(ours.contains("20 / 20") && !ours.contains("± 0.000"), "{ours}");
     assert!(!texts(&page, "preset Bench, not with what is set").is_empty());
 }
@@ -143,13 +143,15 @@ fn table_ii_stands_beside_the_simulated_one() {
         paper.iter().any(|row| row.contains("5 / 5") && row.contains("6.281") && row.contains("16.0")),
         "{paper:?}"
     );
-    let ours = texts(&page, "Simulated by Centrode, disk 2");
-    assert!(ours.iter().any(|row| row.contains("20 / 20")), "{ours:?}");
+    for kind in ["a beam that clamps", "a flat beam that touches"] {
+        let ours = texts(&page, &format!("Simulated: {kind}, disk 2"));
+        assert!(ours.iter().any(|row| row.contains("20 / 20")), "{ours:?}");
+    }
     let estimates = page.get_by_label_contains("Estimated places of contact");
     let (rect, said) = (estimates.rect(), estimates.accesskit_node().label().unwrap_or_default());
     // 15 rows of the paper, and the runs that found the contact.
     let found = |row: &String| row.split("Found ").nth(1)?.split(' ').next()?.parse::<usize>().ok();
-    let marks = 15 + texts(&page, "Simulated by Centrode, disk").iter().filter_map(found).sum::<usize>();
+    let marks = 15 + texts(&page, "Simulated: ").iter().filter_map(found).sum::<usize>();
     assert!(said.contains(&format!("{marks} marks")) && marks > 60, "{said}");
     assert!(said.contains("disk 2 at 15.0 mm: paper "), "{said}");
     assert!(rect.height() > 120.0 && rect.bottom() < 640.0, "{rect}");
@@ -190,7 +192,7 @@ fn odd_scenarios_are_shown_or_refused_in_words() {
         page.run_steps(2);
         slide(&mut page, "Contact disk", 0.0);
         slide(&mut page, "θL at the end", 90.0);
-        let said = [stage.summary(), "Simulated by Centrode, disk", "cannot be shown"].map(|part| texts(&page, part));
+        let said = [stage.summary(), "Simulated: a beam", "cannot be shown"].map(|part| texts(&page, part));
         assert!(said.iter().any(|labels| !labels.is_empty()), "{stage:?} shows nothing and says nothing");
     }
 }

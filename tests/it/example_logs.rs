@@ -80,6 +80,20 @@ fn trajectory() -> String {
     text
 }
 
+/// As a data set has it: nanoseconds since 1970, and a velocity behind that nobody asked for.
+fn euroc() -> String {
+    let mut text = "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z [],\
+                    v_RS_R_x [m s^-1]\n"
+        .to_owned();
+    for entry in part(0.0, 7.5) {
+        let [w, x, y, z] = quaternion_from_euler(&entry.reading.angles);
+        let p = entry.reading.position;
+        let stamp = 1_403_636_580_838_555_648_u64 + (entry.time * 1e9).round() as u64;
+        writeln!(text, "{stamp},{:.7},{:.7},{:.7},{w:.7},{x:.7},{y:.7},{z:.7},0", p.x, p.y, p.z).expect("a text");
+    }
+    text
+}
+
 /// Joint values and load cells beside the trajectory.
 fn commands() -> String {
     let plan = plan();
@@ -114,6 +128,7 @@ fn the_example_logs_are_made_here() {
         ("dirty.csv", dirty().into_bytes()),
         ("trajectory.tum", trajectory().into_bytes()),
         ("commands.csv", commands().into_bytes()),
+        ("euroc.csv", euroc().into_bytes()),
         ("ndi.csv", ndi.into_bytes()),
         ("ros.mcap", container()),
     ] {
@@ -133,6 +148,7 @@ fn each_example_shows_the_contact() {
         &["dirty.csv", "--map", "time=Zeit"],
         &["trajectory.tum", "--commands", "assets/logs/commands.csv"],
         &["trajectory.tum"],
+        &["euroc.csv", "--commands", "motion"],
         &["ndi.csv", "--tool", "TIP", "--commands", "motion", "--fit-frame"],
         &["ros.mcap"],
     ] {

@@ -67,15 +67,13 @@ impl<L> Report<L> {
         let events = events.to_vec();
         Self { scenario, samples, contact, plant, crossings: listed, events, more, detection, peak, log }
     }
-}
 
-impl Report {
-    /// Of a run, with every crossing.
+    /// Of a run with every crossing: what was simulated, or a log with how it was read. `scenario` is what is set, of which a log is
+    /// judged without the contact.
     ///
     /// # Errors
     /// When there are too many.
-    pub fn of(run: &Run) -> Result<Self, TooMany> {
-        let scenario = run.plan.scenario();
+    pub fn of(run: &Run, scenario: Scenario, log: Option<L>) -> Result<Self, TooMany> {
         let mut tally = Tally::new(true);
         let mut crossings = run.crossings();
         for sample in run.samples() {
@@ -83,7 +81,11 @@ impl Report {
             tally.add(&sample, now, &scenario.detection)?;
             crossings = later;
         }
+<<<<<<< HEAD
         Ok(Self::new(scenario.clone(), tally, run.events(), Some((&run.plan, run.plant_events())), None))
+=======
+        Ok(Self::new(scenario, tally, run.events(), Contact::of(&run.plan, run.contact_time()), log))
+>>>>>>> main
     }
 }
 
@@ -220,7 +222,7 @@ mod tests {
     #[test]
     fn a_report_of_a_run_holds_what_the_run_found() {
         let run = simulate(&find("bench").and_then(|preset| preset.scenario()).expect("a preset")).expect("a run");
-        let report = Report::of(&run).expect("few crossings");
+        let report = Report::<()>::of(&run, run.plan.scenario().clone(), None).expect("few crossings");
         assert_eq!((report.samples, &*report.crossings, &*report.events), (run.len(), run.crossings(), run.events()));
         assert_eq!(report.detection.map(|found| found.detection), run.detection());
         assert_eq!(report.contact.map(|contact| contact.time), run.contact_time());

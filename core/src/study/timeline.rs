@@ -6,6 +6,7 @@
 use super::course::{Curve, Measure, angles, bent, curves, held, let_go, marks, measure, timed, unarmed};
 use super::figure::thin::Thinner;
 use super::figure::words;
+use crate::chart::notation::plain;
 use crate::chart::{Axis, Chart, Panel, Role, Series, Style};
 use crate::detect::{Detection, Event, Method, Standing};
 use crate::plant::PlantEvent;
@@ -107,9 +108,15 @@ impl Timeline {
         }
     }
 
-    /// The chart, with the events of its detectors.
+    /// The chart of a log called `name`, with the events of its detectors.
     #[must_use]
-    pub fn finish(self, title: String, caption: String, events: &[Event]) -> Chart {
+    pub fn of_log(self, name: &str, events: &[Event]) -> Chart {
+        let caption = judged(&self.scenario);
+        self.finish(plain(name), caption, events)
+    }
+
+    /// The chart, with the events of its detectors.
+    fn finish(self, title: String, caption: String, events: &[Event]) -> Chart {
         let ends = self.ends.filter(|[from, to]| to > from).unwrap_or([0.0, 1.0]);
         let detection = Detection::first(events);
         let armed_from = self.scenario.detection.armed_from;
@@ -153,12 +160,26 @@ impl Detector {
 /// A finished run as a chart.
 #[must_use]
 pub fn chart(run: &Run) -> Chart {
+    simulated(whole(run), &run.plan, run.events())
+}
+
+/// A log called `name` as a chart.
+#[must_use]
+pub fn recorded(run: &Run, name: &str) -> Chart {
+    whole(run).of_log(name, run.events())
+}
+
+fn whole(run: &Run) -> Timeline {
     let mut timeline = Timeline::new(run.plan.scenario(), Method::ALL, run.len());
     run.samples().for_each(|sample| timeline.push(&sample));
+<<<<<<< HEAD
     match run.is_recorded() {
         true => timeline.finish(TITLE.into(), judged(run.plan.scenario()), run.events()),
         false => simulated(timeline, &run.plan, run.events(), run.plant_events()),
     }
+=======
+    timeline
+>>>>>>> main
 }
 
 /// The chart of a run that has been simulated sample by sample.
@@ -180,8 +201,7 @@ pub fn simulated(timeline: Timeline, plan: &Plan, events: &[Event], plant: &[Pla
 }
 
 /// What a log was judged by, in words.
-#[must_use]
-pub fn judged(scenario: &Scenario) -> String {
+fn judged(scenario: &Scenario) -> String {
     let length = scenario.filter.length;
     format!("{}; N = {length}; {}.", words::robot(scenario), words::thresholds(scenario))
 }

@@ -15,6 +15,8 @@ const ROWS: usize = 5;
 pub enum Edit {
     /// A quantity is in this column, from 0; none gives back what was guessed.
     Column(Role, Option<usize>),
+    /// It is in no column, whatever was guessed.
+    Unused(Role),
     /// Its unit.
     Unit(Role, &'static str),
     /// The format; none to guess it.
@@ -116,6 +118,7 @@ impl Form {
                     self.chosen.insert(role, *guess);
                 }
             }
+            Edit::Unused(role) => drop(self.chosen.remove(&role)),
             Edit::Unit(role, unit) => {
                 if let Some((_, known)) = self.chosen.get_mut(&role) {
                     *known = unit;
@@ -159,14 +162,21 @@ impl Form {
     #[must_use]
     pub fn filled(self) -> Parts {
         let changed = self.chosen.iter().filter(|(role, chosen)| self.guessed.get(role) != Some(chosen));
-        let mapping = |(role, (place, unit)): (&Role, &(usize, &'static str))| {
-            let header = self.headers.get(*place).cloned().unwrap_or_default();
+        let column = |place: usize| {
+            let header = self.headers.get(place).cloned().unwrap_or_default();
             let alone = self.headers.iter().filter(|other| **other == header).count() == 1;
             let plain = alone && header.trim() == header && !header.is_empty();
-            let column = if plain { header } else { format!("#{}", place + 1) };
-            Mapping { role: *role, unit: Some(*unit), column }
+            if plain { header } else { format!("#{}", place + 1) }
         };
-        let mappings = changed.map(mapping).collect();
+        let mapping = |(role, (place, unit)): (&Role, &(usize, &'static str))| Mapping {
+            role: Some(*role),
+            unit: Some(*unit),
+            column: column(*place),
+        };
+        let taken = |place: usize| self.chosen.values().any(|(other, _)| *other == place);
+        let unused = self.guessed.iter().filter(|(role, (place, _))| !self.chosen.contains_key(role) && !taken(*place));
+        let unused = unused.map(|(_, (place, _))| Mapping { role: None, unit: None, column: column(*place) });
+        let mappings = changed.map(mapping).chain(unused).collect();
         let mut parts = self.parts;
         parts.asked.options.mappings = mappings;
         parts
@@ -202,9 +212,13 @@ mod tests {
         assert_eq!(told, ["time [ms]=Zeit", "y [mm]=u (mm)"]);
         form.edit(Edit::Column(Role::Y, None));
         assert!(!form.chosen.contains_key(&Role::Y));
+        form.edit(Edit::Unused(Role::Z));
+        let told: Vec<String> = form.clone().filled().asked.options.mappings.iter().map(ToString::to_string).collect();
+        assert_eq!(told, ["time [ms]=Zeit", "unused=z [mm]"]);
         // Opened again, it shows what was filled in.
         let again = Form::new(form.filled(), None);
         assert_eq!(again.chosen.get(&Role::Time), Some(&(0, "ms")));
+        assert!(again.guessed.contains_key(&Role::Z) && !again.chosen.contains_key(&Role::Z));
     }
 
     #[test]

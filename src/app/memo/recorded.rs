@@ -3,12 +3,12 @@
 use std::rc::Rc;
 
 use crate::app::words::refusal;
-use centrode_core::detect::outlook::{Outlook, outlooks};
 use centrode_core::record::log::assemble::rated;
 use centrode_core::record::log::frame::Setting;
-use centrode_core::record::log::{Commands, Log, LogError, Rate, Report, Setup, assemble};
+use centrode_core::record::log::{Commands, Log, LogError, Setup, assemble};
 use centrode_core::run::Run;
 use centrode_core::scenario::{Contact, Place, Plan, Scenario, ScenarioError};
+use centrode_core::study::about::About;
 
 /// The longest log the page shows, in instants of the loop: with its plots it takes less than 1 GB. It may be longer than a
 /// simulation, which is computed anew at each touch of a slider.
@@ -22,16 +22,8 @@ pub struct Recorded {
     setup: Setup,
     /// The scenario with which it was made a recording.
     scenario: Scenario,
-    /// Rate of the loop, Hz.
-    pub loop_rate: f64,
-    /// Who said so.
-    pub rate: Rate,
-    /// Where the commands came from.
-    pub commands: Commands,
-    /// Which detectors work, and why not.
-    pub outlooks: Vec<Outlook>,
-    /// What was done with its rows.
-    pub report: Report,
+    /// How it was read.
+    pub about: About,
 }
 
 impl Recorded {
@@ -46,19 +38,10 @@ impl Recorded {
         let plan = plan(scenario, loop_rate)
             .map_err(|refused| LogError::file(format!("with this log, {}", refusal::told(&refused))))?;
         let made = assemble(&log, scenario, &setup)?;
+        let about = About::new(&log, &made);
         let run = Run::recorded(plan, made.recording);
         let run = run.ok_or_else(|| LogError::file("holds no row that can be used"))?;
-        let outlooks = outlooks(&log, made.commands);
-        let recorded = Self {
-            log,
-            setup,
-            scenario: scenario.clone(),
-            loop_rate,
-            rate: made.rate,
-            commands: made.commands,
-            outlooks,
-            report: made.report,
-        };
+        let recorded = Self { log, setup, scenario: scenario.clone(), about };
         Ok((recorded, run))
     }
 
@@ -84,7 +67,7 @@ impl Recorded {
             seed: made.seed,
             ..scenario.clone()
         };
-        if self.commands != Commands::Motion {
+        if self.about.commands != Commands::Motion {
             // Its end says which clock is the scenario's, its direction what δ is where the log has none.
             let theirs = &scenario.motion;
             same.motion = made.motion.clone();
@@ -98,7 +81,7 @@ impl Recorded {
     /// # Errors
     /// As [`Plan::new`].
     pub fn plan(&self, scenario: &Scenario) -> Result<Plan, ScenarioError> {
-        plan(scenario, self.loop_rate)
+        plan(scenario, self.about.loop_rate)
     }
 }
 

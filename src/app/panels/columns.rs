@@ -35,6 +35,8 @@ const GROUPS: [(&str, &[Role]); 6] = [
 ];
 /// Columns of the file that are shown at most.
 const SHOWN: usize = 40;
+/// What is said of a column, or of a quantity, of which nothing is made.
+const NOT_USED: &str = "not used";
 
 /// Shows the dialog.
 pub fn columns(ui: &mut Ui, form: &Form, out: &mut Vec<Command>) {
@@ -104,7 +106,7 @@ fn preview(ui: &mut Ui, form: &Form, theme: &Theme) {
                 match role {
                     Some((role, (_, unit))) if *unit == "1" => cell(ui, role.key(), theme.accent),
                     Some((role, (_, unit))) => cell(ui, &format!("{} [{unit}]", role.key()), theme.accent),
-                    None => cell(ui, "not used", theme.dim),
+                    None => cell(ui, NOT_USED, theme.dim),
                 }
             }
             ui.end_row();
@@ -170,7 +172,8 @@ fn topics(ui: &mut Ui, form: &Form, second: bool, out: &mut Vec<Command>) {
 }
 
 fn quantities(ui: &mut Ui, form: &Form, theme: &Theme, out: &mut Vec<Command>) {
-    let columns: Vec<String> = std::iter::once("as guessed".to_owned())
+    let columns: Vec<String> = ["as guessed".to_owned(), NOT_USED.to_owned()]
+        .into_iter()
         .chain(form.headers.iter().enumerate().map(|(place, header)| format!("{}: {header}", place + 1)))
         .collect();
     let wide = (ui.available_width() - 190.0).clamp(90.0, 260.0);
@@ -180,9 +183,12 @@ fn quantities(ui: &mut Ui, form: &Form, theme: &Theme, out: &mut Vec<Command>) {
             for role in roles {
                 let key = role.key();
                 let known = form.chosen.get(role);
-                let shown = known.and_then(|(place, _)| columns.get(place + 1)).map_or("none", String::as_str);
-                if let Some(picked) = choice(ui, (key, role.sentence()), shown, wide, &columns) {
-                    edit(out, Edit::Column(*role, picked.checked_sub(1)));
+                let none = if form.guessed.contains_key(role) { NOT_USED } else { "none" };
+                let shown = known.and_then(|(place, _)| columns.get(place + 2)).map_or(none, String::as_str);
+                match choice(ui, (key, role.sentence()), shown, wide, &columns) {
+                    Some(1) => edit(out, Edit::Unused(*role)),
+                    Some(picked) => edit(out, Edit::Column(*role, picked.checked_sub(2))),
+                    None => {}
                 }
                 if let Some((_, unit)) = known {
                     unit_of(ui, *role, unit, out);

@@ -8,7 +8,7 @@ use crate::app::widgets::text::rich;
 use centrode_core::chart::layout::Ink;
 use centrode_core::chart::notation::printed;
 use centrode_core::chart::{Axis, Chart, Panel};
-use egui::{Color32, Label, Painter, Pos2, Rect, Sense, Stroke, Ui, pos2};
+use egui::{Color32, Label, Painter, Pos2, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 /// Size of the chart's text, points.
 const TEXT: f32 = 11.5;
@@ -16,6 +16,8 @@ const TEXT: f32 = 11.5;
 const LOW: f32 = 260.0;
 /// Width of the words there.
 const ASIDE: f32 = 250.0;
+/// A panel is not lower than this where another stands below it, points.
+const LEAST: f32 = 260.0;
 /// The pointer reads a point this near.
 const REACH: f32 = 28.0;
 
@@ -40,15 +42,33 @@ pub fn figure(
     } else {
         below.with_max_y(words(ui, rect, chart, inputs, &theme) - 8.0)
     };
-    let painter = ui.painter().clone();
     let picture = Picture::keep(kept, ui.ctx(), &theme, (version, false), || chart.clone());
-    let places = picture.show(&painter, &theme, space, paint::page(TEXT));
-    let (Some(place), Some(panel)) = (places.first(), chart.panels.first()) else { return };
-    let response = ui.interact(place.data(), ui.make_persistent_id("figure"), Sense::hover());
-    let label = format!("{}. {}", chart.title, chart.caption);
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Figure, true, &label));
-    if let Some(pointer) = response.hover_pos() {
-        read(&painter, place, panel, pointer, &theme);
+    // Panels that stand below each other and would be too low are scrolled.
+    let tall = LEAST * chart.panels.len() as f32;
+    if chart.panels.len() > 1 && space.width() < space.height().max(tall) && space.height() < tall {
+        let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(space).id_salt("panels"));
+        ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
+            let (_, place) = ui.allocate_space(vec2(ui.available_width(), tall));
+            panels(ui, place, chart, picture, &theme);
+        });
+    } else {
+        panels(ui, space, chart, picture, &theme);
+    }
+}
+
+/// Draws the panels, and reads the one under the pointer.
+fn panels(ui: &mut Ui, space: Rect, chart: &Chart, picture: &mut Picture<u64>, theme: &Theme) {
+    let painter = ui.painter().clone();
+    let places = picture.show(&painter, theme, space, paint::page(TEXT));
+    for (k, (place, panel)) in places.iter().zip(&chart.panels).enumerate() {
+        let response = ui.interact(place.data(), ui.make_persistent_id(("figure", k)), Sense::hover());
+        let title = [&chart.title, &panel.title].map(String::as_str).into_iter().filter(|title| !title.is_empty());
+        let title = title.collect::<Vec<_>>().join(": ");
+        let label = if k == 0 { format!("{title}. {}", chart.caption) } else { title };
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Figure, true, &label));
+        if let Some(pointer) = response.hover_pos() {
+            read(&painter, place, panel, pointer, theme);
+        }
     }
 }
 

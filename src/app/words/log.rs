@@ -17,7 +17,7 @@ const NO_TRUTH: &str = "A log does not say when contact began, where it was, or 
 
 /// Whether a detector can judge a log, and what it lacks.
 fn outlook(recorded: &Recorded, method: Method) -> Option<&Outlook> {
-    recorded.outlooks.iter().find(|outlook| outlook.detector == method)
+    recorded.about.detectors.iter().find(|outlook| outlook.detector == method)
 }
 
 /// What a detector made of a log.
@@ -94,8 +94,8 @@ pub fn facts(recorded: &Recorded) -> String {
     format!(
         "{} · {} rows · loop at {} Hz",
         recorded.log.format.name(),
-        recorded.report.rows,
-        text::number(recorded.loop_rate)
+        recorded.about.report.rows,
+        text::number(recorded.about.loop_rate)
     )
 }
 
@@ -103,7 +103,7 @@ pub fn facts(recorded: &Recorded) -> String {
 #[must_use]
 pub fn missing(recorded: &Recorded) -> String {
     let whys: Vec<&str> =
-        recorded.outlooks.iter().map(|outlook| outlook.why.as_str()).filter(|why| !why.is_empty()).collect();
+        recorded.about.detectors.iter().map(|outlook| outlook.why.as_str()).filter(|why| !why.is_empty()).collect();
     whys.join(" · ")
 }
 
@@ -119,14 +119,14 @@ pub fn report(name: &str, recorded: &Recorded) -> Notice {
     if !unused.is_empty() {
         rows.push(row("Not used", unused.join(", ")));
     }
-    let rate = format!("{} Hz: {}", text::number(recorded.loop_rate), recorded.rate.told());
-    rows.extend([row("Loop", rate), row("Commands", recorded.commands.told().into())]);
-    for Outlook { detector, works, why } in &recorded.outlooks {
+    let rate = format!("{} Hz: {}", text::number(recorded.about.loop_rate), recorded.about.loop_rate_from.told());
+    rows.extend([row("Loop", rate), row("Commands", recorded.about.commands.told().into())]);
+    for Outlook { detector, works, why } in &recorded.about.detectors {
         let how = if *works { "works" } else { "cannot work" };
         let why = if why.is_empty() { format!("It {how}.") } else { format!("It {how}: {why}.") };
         rows.push(row(measure(*detector).detector, why));
     }
-    let sentences: Vec<String> = recorded.report.sentences().collect();
+    let sentences: Vec<String> = recorded.about.report.sentences().collect();
     let done =
         if sentences.is_empty() { "Nothing was dropped, held or left undefined.".into() } else { sentences.join("\n") };
     rows.push(row("What was done with the rows", done));
@@ -158,7 +158,7 @@ pub fn too_large(size: u64, most: u64) -> String {
 /// Whether a control, by its key, makes simulations alone and does nothing to the log that is shown.
 #[must_use]
 pub fn idle(key: &str, recorded: &Recorded) -> bool {
-    let motion = recorded.commands == Commands::Motion;
+    let motion = recorded.about.commands == Commands::Motion;
     match key {
         "motion.delta" => false,
         _ if key.starts_with("motion.") => !motion,

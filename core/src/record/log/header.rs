@@ -132,11 +132,14 @@ impl Column {
     }
 }
 
+/// What a mapping calls a column that is not to be used.
+const UNUSED: &str = "unused";
+
 /// A column that a person says what it is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mapping {
-    /// What it is.
-    pub role: Role,
+    /// What it is; none for a column that is not to be used, whatever it looks like.
+    pub role: Option<Role>,
     /// The unit, where the header does not tell it or tells it wrong.
     pub unit: Option<&'static str>,
     /// The column's header, its name without the unit, or `#` and its number from 1.
@@ -156,8 +159,11 @@ impl Mapping {
         if key.is_empty() || column.is_empty() {
             return Err(malformed());
         }
+        if key == UNUSED && unit.is_none() {
+            return Ok(Self { role: None, unit: None, column: column.into() });
+        }
         let role = Role::ALL.iter().copied().find(|role| role.key() == key).ok_or_else(|| LogError {
-            allowed: Role::ALL.iter().map(|role| role.key()).collect::<Vec<_>>().join(", "),
+            allowed: Role::ALL.iter().map(|role| role.key()).chain([UNUSED]).collect::<Vec<_>>().join(", "),
             ..LogError::file(format!("a log has no column called {key:?}"))
         })?;
         let unit = match unit {
@@ -167,7 +173,7 @@ impl Mapping {
                 ..LogError::file(format!("{key} has no unit {name:?}"))
             })?),
         };
-        Ok(Self { role, unit, column: column.into() })
+        Ok(Self { role: Some(role), unit, column: column.into() })
     }
 
     /// Whether it means the column in a place (from 0) with this header.
@@ -180,9 +186,10 @@ impl Mapping {
 
 impl fmt::Display for Mapping {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let key = self.role.map_or(UNUSED, Role::key);
         match self.unit {
-            Some(unit) => write!(f, "{} [{unit}]={}", self.role.key(), self.column),
-            None => write!(f, "{}={}", self.role.key(), self.column),
+            Some(unit) => write!(f, "{key} [{unit}]={}", self.column),
+            None => write!(f, "{key}={}", self.column),
         }
     }
 }
@@ -231,7 +238,7 @@ pub fn columns(headers: &[String], line: u64, mappings: &[Mapping]) -> Result<Ve
         let (name, unit) = with_unit(header);
         let mapped = mappings.iter().find(|mapping| mapping.is_of(place, header));
         let (role, origin, unit) = if let Some(mapping) = mapped {
-            (Some(mapping.role), Origin::Mapped, mapping.unit.or(unit))
+            (mapping.role, Origin::Mapped, mapping.unit.or(unit))
         } else if scalar_first && matches!(name, "q1" | "q2" | "q3") {
             // Beside a q0 they are no joints.
             let role = [Role::Qx, Role::Qy, Role::Qz][usize::from(name.as_bytes()[1] - b'1')];
@@ -325,6 +332,7 @@ mod tests {
         assert_eq!(of(&["a", "b"], &["x [mm]=a", "time=#2"]), "x mm, time s");
         assert_eq!(of(&["x", "Tx (mm)"], &[]), "x m, -", "the exact name goes first");
         assert_eq!(of(&["x", "Tx (mm)"], &["x=Tx (mm)"]), "-, x mm", "a mapping goes before it");
+        assert_eq!(of(&["x", "Marker Status"], &["unused=Marker Status"]), "x m, -");
         assert_eq!(of(&["theta_l_rate [rad/s]", "tau_lc_1 [N]"], &[]), "-, tau_1 N");
     }
 

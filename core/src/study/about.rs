@@ -1,34 +1,41 @@
 //! How a log was read, told.
 
-use centrode_core::detect::outlook::{Outlook, outlooks};
-use centrode_core::record::log::assemble::Assembled;
-use centrode_core::record::log::frame::Fit;
-use centrode_core::record::log::{Column, Commands, Format, Log, Rate, Report};
-use centrode_core::scenario::text::number;
+use crate::detect::outlook::{Outlook, outlooks};
+use crate::record::log::assemble::Assembled;
+use crate::record::log::frame::Fit;
+use crate::record::log::{Column, Commands, Format, Log, Rate, Report};
+use crate::scenario::text::number;
 use serde::Serialize;
 use std::io::Write;
 
 /// How a log was read.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct About {
-    format: Format,
-    columns: Vec<Column>,
+    /// How it is written.
+    pub format: Format,
+    /// Its columns, as they were understood.
+    pub columns: Vec<Column>,
     /// Rows read, of both files when there are two.
-    rows: u64,
-    /// Hz, and who said so.
-    loop_rate: f64,
-    loop_rate_from: Rate,
-    commands: Commands,
+    pub rows: u64,
+    /// Rate of the loop, Hz.
+    pub loop_rate: f64,
+    /// Who said so.
+    pub loop_rate_from: Rate,
+    /// Where the commands came from.
+    pub commands: Commands,
     /// What was subtracted from the log's times, s.
-    start: f64,
+    pub start: f64,
     /// Where its frame is against {B}, when it was fitted.
-    frame: Option<Fit>,
-    detectors: Vec<Outlook>,
-    report: Report,
+    pub frame: Option<Fit>,
+    /// Which detectors work, and why not.
+    pub detectors: Vec<Outlook>,
+    /// What was done with its rows.
+    pub report: Report,
 }
 
 impl About {
     /// Of a log and its recording.
+    #[must_use]
     pub fn new(log: &Log, assembled: &Assembled) -> Self {
         Self {
             format: log.format,
@@ -45,6 +52,9 @@ impl About {
     }
 
     /// Above the table of a run.
+    ///
+    /// # Errors
+    /// When it cannot be written.
     pub fn table(&self, out: &mut impl Write) -> std::io::Result<()> {
         writeln!(out, "log         {}, {} rows", self.format.name(), self.rows)?;
         let columns: Vec<String> = self.columns.iter().filter_map(Column::told).collect();
