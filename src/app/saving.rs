@@ -284,11 +284,7 @@ impl App {
             Subject::Tuning => self.stages.tuning(&self.tuner).ok_or_else(|| UNDONE.into()),
             Subject::Figure(_) | Subject::Table | Subject::Map => match self.found()? {
                 Found::Figure(chart) => Ok(chart.clone()),
-<<<<<<< HEAD
-                Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (scenario, REPEATS))),
-=======
-                Found::Table(table, rows) => Ok(with_words(table, rows, (&scenario, REPEATS))),
->>>>>>> main
+                Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (&scenario, REPEATS))),
                 Found::Map(found) => Ok(map::chart::chart(found, self.memo.plan())),
             },
         }

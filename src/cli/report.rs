@@ -2,11 +2,8 @@
 
 use super::output::{Failure, json};
 use centrode_core::detect::{Detection, Event, Method};
-<<<<<<< HEAD
 use centrode_core::plant::{Happening, PlantEvent};
-=======
 use centrode_core::study::about::About;
->>>>>>> main
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 

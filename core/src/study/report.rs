@@ -81,11 +81,8 @@ impl<L> Report<L> {
             tally.add(&sample, now, &scenario.detection)?;
             crossings = later;
         }
-<<<<<<< HEAD
-        Ok(Self::new(scenario.clone(), tally, run.events(), Some((&run.plan, run.plant_events())), None))
-=======
-        Ok(Self::new(scenario, tally, run.events(), Contact::of(&run.plan, run.contact_time()), log))
->>>>>>> main
+        let truth = (!run.is_recorded()).then(|| (&run.plan, run.plant_events()));
+        Ok(Self::new(scenario, tally, run.events(), truth, log))
     }
 }
 

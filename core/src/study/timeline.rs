@@ -160,7 +160,7 @@ impl Detector {
 /// A finished run as a chart.
 #[must_use]
 pub fn chart(run: &Run) -> Chart {
-    simulated(whole(run), &run.plan, run.events())
+    simulated(whole(run), &run.plan, run.events(), run.plant_events())
 }
 
 /// A log called `name` as a chart.
@@ -172,14 +172,7 @@ pub fn recorded(run: &Run, name: &str) -> Chart {
 fn whole(run: &Run) -> Timeline {
     let mut timeline = Timeline::new(run.plan.scenario(), Method::ALL, run.len());
     run.samples().for_each(|sample| timeline.push(&sample));
-<<<<<<< HEAD
-    match run.is_recorded() {
-        true => timeline.finish(TITLE.into(), judged(run.plan.scenario()), run.events()),
-        false => simulated(timeline, &run.plan, run.events(), run.plant_events()),
-    }
-=======
     timeline
->>>>>>> main
 }
 
 /// The chart of a run that has been simulated sample by sample.
