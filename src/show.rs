@@ -227,7 +227,7 @@ mod tests {
             let run = simulate(&preset.scenario().expect(preset.name)).expect("valid");
             let camera = home_camera(&run);
             for size in [Vec2::new(730.0, 500.0), Vec2::new(375.0, 320.0), Vec2::new(300.0, 600.0)] {
-                let mut high = f32::MAX;
+                let (mut high, mut left, mut right) = (f32::MAX, f32::MAX, 0.0_f32);
                 // Straight in between, the robot is highest.
                 let times = [0.0, 5.5, 6.5, 8.0].into_iter().chain((0..20).map(|k| 3.0 + 0.25 * f64::from(k)));
                 for time in times {
@@ -241,10 +241,11 @@ mod tests {
                     for &point in solid.flat_map(|tube| &tube.path) {
                         let at = camera.project(point, size).expect("in front").truncate() / size;
                         assert!(at.cmpge(Vec2::ZERO).all() && at.cmple(Vec2::ONE).all(), "{}: {at}", preset.name);
-                        high = high.min(at.y);
+                        (high, left, right) = (high.min(at.y), left.min(at.x), right.max(at.x));
                     }
                 }
-                assert!(size.x < size.y || high < 0.1, "{}: it fills the height, {high}", preset.name);
+                let fills = high < 0.1 || right - left > 0.6;
+                assert!(size.x < size.y || fills, "{}: it fills height or width, {high} {left} {right}", preset.name);
             }
         }
     }

@@ -30,16 +30,16 @@ pub const PRESETS: &[Preset] = presets![
     "gimbal-lock",
     "letting-go",
     "load-at-rest",
-    "touch-1",
-    "touch-2",
-    "touch-3",
-    "cylinder",
-    "snap",
     "figure-3",
     "figure-4",
     "figure-6",
     "figure-7",
     "figure-8",
+    "touch-1",
+    "touch-2",
+    "touch-3",
+    "cylinder",
+    "snap",
 ];
 
 impl Preset {

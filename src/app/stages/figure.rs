@@ -16,8 +16,8 @@ const TEXT: f32 = 11.5;
 const LOW: f32 = 260.0;
 /// Width of the words there.
 const ASIDE: f32 = 250.0;
-/// A panel is not lower than this where another stands below it, points.
-const LEAST: f32 = 260.0;
+/// A panel with its legend is not lower than this where there is another, points.
+const LEAST: f32 = 300.0;
 /// The pointer reads a point this near.
 const REACH: f32 = 28.0;
 
@@ -43,9 +43,10 @@ pub fn figure(
         below.with_max_y(words(ui, rect, chart, inputs, &theme) - 8.0)
     };
     let picture = Picture::keep(kept, ui.ctx(), &theme, (version, false), || chart.clone());
-    // Panels that stand below each other and would be too low are scrolled.
-    let tall = LEAST * chart.panels.len() as f32;
-    if chart.panels.len() > 1 && space.width() < space.height().max(tall) && space.height() < tall {
+    // Several panels that would be too low, beside or below each other, are scrolled.
+    let below = if space.width() > 1.5 * LEAST { 1.0 } else { chart.panels.len() as f32 };
+    let tall = LEAST * below;
+    if chart.panels.len() > 1 && space.height() < tall {
         let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(space).id_salt("panels"));
         ScrollArea::vertical().auto_shrink(false).show(&mut inner, |ui| {
             let (_, place) = ui.allocate_space(vec2(ui.available_width(), tall));
