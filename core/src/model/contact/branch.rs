@@ -173,7 +173,7 @@ impl Branch {
     }
 
     /// The same at a tenth of the price, for a map of many contacts: cubics between the shapes found on the way, which are
-    /// right to 1e-5 L.
+    /// right to 1e-5 L, but for a contact that is about to slide off.
     #[must_use]
     pub fn sketched(meeting: Meeting, surface: Surface, last: f64) -> Self {
         let mut branch = Self::followed(meeting, surface, last);

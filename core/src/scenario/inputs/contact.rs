@@ -140,9 +140,7 @@ impl From<Contact> for ContactKeys {
             Start::Time(time) => (Some(time), None),
             Start::Bend(bend) => (None, Some(bend)),
         };
-        let default = Contact::default();
-        let kind = (contact.kind != default.kind).then_some(contact.kind);
-        let rounding = (contact.rounding != default.rounding).then_some(contact.rounding);
+        let (kind, rounding) = (Some(contact.kind), Some(contact.rounding));
         Self { disk, arc_length, time, bend, kind, rounding }
     }
 }
