@@ -161,7 +161,8 @@ impl Run {
     /// assert_eq!(run.update(Plan::new(&scenario)?), Anew::Evidence);
     /// # Ok::<(), centrode_core::scenario::ScenarioError>(())
     /// ```
-    pub fn update(&mut self, plan: Plan) -> Anew {
+    pub fn update(&mut self, mut plan: Plan) -> Anew {
+        plan.share_contacts(&self.plan);
         let (settings, before) = (Settings::of(&plan), &self.judged.settings);
         if plan == self.plan {
             return Anew::Nothing;

@@ -7,7 +7,7 @@ use centrode_core::model::joints::{joint_jacobian, joints};
 use centrode_core::model::{Assumed, Assumption, Configuration, Constrained, Rate, Segment, Touched, locate};
 use centrode_core::plant::Shape;
 use centrode_core::scenario::Robot;
-use centrode_core::scenario::plan::{LENGTHS, MAX_TURN, RADII, check_bend};
+use centrode_core::scenario::plan::{LENGTHS, MAX_TURN, RADII, check_bend, is_between};
 use centrode_core::scenario::text::number;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
@@ -248,18 +248,19 @@ impl ModelArgs {
                 Surface::Cylinder { rounding: self.rounding / length }
             }
         };
-        let inside = self.contact > 0.0 && self.contact < length;
+        let inside = is_between(self.contact, length);
         let allowed = "a place between the base and the end disk, for a beam that only touches (--kind)";
         demand(inside, "--contact", self.contact, allowed)?;
         let side = if bend < met { -1.0 } else { 1.0 };
         let branch = Branch::new(Meeting { place: self.contact / length, bend: met, side }, surface, bend);
         if let Some((end, how)) = branch.ending() {
             let how = match how {
-                Ending::Snaps => "the segment snaps off the beam",
-                Ending::SlidesOff => "the beam slides over the segment's end",
-                Ending::Opens => "the segment comes off the beam",
+                Ending::Snaps => "the segment snaps off the beam at",
+                Ending::SlidesOff => "the beam slides over the segment's end at",
+                Ending::Wraps => "the segment would lie along the round beam, which is not modelled, from",
+                Ending::Opens => "the segment comes off the beam at",
             };
-            let allowed = format!("met at a bend of {} rad, {how} at a bend of {} rad", number(met), number(end));
+            let allowed = format!("met at a bend of {} rad, {how} a bend of {} rad", number(met), number(end));
             return Err(Failure::Input(format!("--theta-l = {} is not allowed: {allowed}", number(self.theta_l))));
         }
         let touched = Touched::new(length, std::sync::Arc::new(branch), configuration).detailed();

@@ -48,6 +48,7 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             Happening::Opened => "comes off the beam",
             Happening::Snapped => "snaps off the beam, and is free from then on",
             Happening::SlidOff => "slides off the beam, and is free from then on",
+            Happening::Wrapped => "would lie along the round beam, which is not modelled: free from then on",
         };
         writeln!(out, "            at {time:.3} s (bend {:.1}°) the segment {how}", degrees(*bend))?;
     }

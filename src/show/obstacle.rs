@@ -151,7 +151,7 @@ impl Push {
         let furthest = ends.into_iter().map(|bend| contact.side * bend).fold(f64::NEG_INFINITY, f64::max);
         let last = branch.ending().map_or(contact.side * furthest, |(bend, _)| bend);
         let largest = branch.shape(last).map_or(0.0, |shape| contact.side * shape.force()).max(force);
-        let unit = (segment.ep_ip + 3.0 * segment.es_is) / (segment.length * segment.length);
+        let unit = segment.bending_stiffness() / (segment.length * segment.length);
         let share = if largest > 0.0 { (force / largest).max(0.0) } else { 0.0 };
         Some(Self { at, along: -toward, newtons: force * unit, share })
     }
@@ -284,7 +284,7 @@ mod tests {
         let (length, s) = (segment.length, contact.arc_length);
         let place = run.place(9.0);
         let turned = run.commanded(place).bend() - contact.bend;
-        let stiffness = segment.ep_ip + 3.0 * segment.es_is;
+        let stiffness = segment.bending_stiffness();
         // M0 s²/2 = F s³/3, so M0 = 2 F s/3; and EI Δφ = M0 L − F s²/2.
         let force = stiffness * turned / (2.0 * s * length / 3.0 - 0.5 * s * s);
         let push = Push::of(run, sizes, &run.shape(place)).expect("it touches");

@@ -221,3 +221,17 @@ fn the_figure_of_the_page_on_touch_is_the_commands() {
     assert!(stored == std::fs::read_to_string(&fresh).expect("written"), "make it anew, as docs/TOUCH.md says");
     let _ = std::fs::remove_file(fresh);
 }
+
+#[test]
+fn what_only_a_clamp_can_hold_is_shown_with_a_clamp_alone() {
+    let path = std::env::temp_dir().join(format!("centrode-{}-base.svg", std::process::id()));
+    let output = centrode(&["figure", "4", "--set", "contact.arc_length=0", "--out", path.to_str().expect("UTF-8")]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let drawn = std::fs::read_to_string(&path).expect("written");
+    let _ = std::fs::remove_file(path);
+    assert!(!drawn.contains("flat beam"));
+    let output = centrode(&["table2", "--json", "--repeats", "1", "--set", "robot.disks=[0.0075,0.015,0.03]"]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let table: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!((&table["simulated"][0]["repeats"], &table["other"][0]["repeats"]), (&1.into(), &0.into()));
+}

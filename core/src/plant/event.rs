@@ -18,6 +18,8 @@ pub enum Happening {
     Snapped,
     /// The beam slides over its end: from then on it is free.
     SlidOff,
+    /// It would lie along the round beam from then on, which is not modelled: it is shown free.
+    Wrapped,
 }
 
 /// An event of the plant. It is truth, which no detector sees.
@@ -76,6 +78,7 @@ fn left(contact: &PlannedContact, bend: f64) -> (Happening, f64) {
         Some((at, how)) if contact.side * (bend - at) > 0.0 => match how {
             Ending::Snaps => (Happening::Snapped, at),
             Ending::SlidesOff => (Happening::SlidOff, at),
+            Ending::Wraps => (Happening::Wrapped, at),
             Ending::Opens => (Happening::Opened, at),
         },
         _ => (Happening::Opened, contact.bend),

@@ -131,6 +131,13 @@ impl Plan {
         Self { scenario: Scenario { seed: seed & MAX_SEED, ..self.scenario.clone() }, ..self.clone() }
     }
 
+    /// Takes the shapes that another plan has found already, where its contacts are the same.
+    pub fn share_contacts(&mut self, other: &Self) {
+        if self.contacts == other.contacts {
+            self.contacts.clone_from(&other.contacts);
+        }
+    }
+
     /// The same without a contact, which is always possible.
     #[must_use]
     pub fn without_contact(&self) -> Self {
@@ -223,7 +230,7 @@ fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, Scenar
         Start::Bend(bend) => (bend, side_beyond(bend, motion)),
     };
     let length = scenario.robot.length;
-    if kind != ContactKind::Clamp && !(arc_length > 0.0 && arc_length < length) {
+    if kind != ContactKind::Clamp && !is_between(arc_length, length) {
         let quantity = if key == "contact.disk" { Quantity::Count } else { Quantity::Length };
         let allowed =
             Allowed::Need("a place between the base and the end disk, for a beam that only touches (contact.kind)");
@@ -236,6 +243,13 @@ fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, Scenar
         return Err(Refused::error("contact.rounding", Quantity::Length, Value::Number(rounding), allowed));
     }
     Ok(Some(PlannedContact::new((arc_length, bend), side, scenario, false)))
+}
+
+/// Whether a place (m) lies between the ends of a segment, so that a beam can touch it there without clamping it.
+#[must_use]
+pub fn is_between(arc_length: f64, length: f64) -> bool {
+    let margin = 1e-5 * length;
+    arc_length > margin && arc_length < length - margin
 }
 
 /// The side on which a bend (rad) lies: away from straight, or where the motion goes.

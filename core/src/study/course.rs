@@ -222,6 +222,7 @@ pub(super) fn let_go(plant: &[PlantEvent]) -> impl Iterator<Item = Vertical> {
         let name = match event.what {
             Happening::Snapped => "snaps off",
             Happening::SlidOff => "slides off",
+            Happening::Wrapped => "would wrap",
             Happening::Met | Happening::Opened => return None,
         };
         Some(Vertical { name, x: event.time, role: Role::Contact })

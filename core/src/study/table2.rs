@@ -196,7 +196,7 @@ fn numbers<const N: usize>(text: &str) -> impl Iterator<Item = [f64; N]> {
 #[derive(Debug, Clone)]
 pub struct Table2Job {
     own: Experiments,
-    other: Experiments,
+    other: Option<Experiments>,
     repeats: usize,
 }
 
@@ -233,6 +233,11 @@ impl Experiments {
         self.rows.push(experiment(&plan.with_seed(seed), script, truth));
     }
 
+    /// The same disks without an experiment.
+    fn none(&self) -> [Disk; 3] {
+        self.plans.each_ref().map(|(truth, ..)| Disk::new(Met { contact_time: f64::NAN, ..*truth }, &[], Some(0)))
+    }
+
     fn disks(&self) -> [Disk; 3] {
         self.plans.each_ref().map(|(truth, ..)| {
             let alarms = self.rows.iter().filter(|row| row.disk == truth.disk && row.outcome == Outcome::FalseAlarm);
@@ -263,7 +268,10 @@ impl Table2Job {
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
         let kind = base.contact.kind;
-        Ok(Self { own: Experiments::new(base, kind)?, other: Experiments::new(base, kind.other())?, repeats })
+        let own = Experiments::new(base, kind)?;
+        // What a clamp holds a flat beam cannot always touch: then nothing is simulated with the other kind.
+        let other = Experiments::new(base, kind.other()).ok();
+        Ok(Self { own, other, repeats })
     }
 
     /// The experiments made so far with the scenario's kind of contact: disks 1, 2, 3 of the first repeat, then of the second,
@@ -276,7 +284,7 @@ impl Table2Job {
     /// The same with the other kind.
     #[must_use]
     pub fn other_rows(&self) -> &[Row] {
-        &self.other.rows
+        self.other.as_ref().map_or(&[], |other| &other.rows)
     }
 
     /// All tables, from the experiments made so far.
@@ -286,8 +294,8 @@ impl Table2Job {
             paper: paper(),
             simulated: self.own.disks(),
             kind: self.own.kind,
-            other: self.other.disks(),
-            other_kind: self.other.kind,
+            other: self.other.as_ref().map_or_else(|| self.own.none(), Experiments::disks),
+            other_kind: self.own.kind.other(),
         }
     }
 }
@@ -298,7 +306,9 @@ impl Job for Table2Job {
             return;
         }
         self.own.step();
-        self.other.step();
+        if let Some(other) = &mut self.other {
+            other.step();
+        }
     }
 
     fn progress(&self) -> Progress {

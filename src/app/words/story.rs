@@ -82,14 +82,21 @@ pub fn let_go(run: &Run) -> Option<(&'static str, f64)> {
     run.plant_events().iter().find_map(|event| match event.what {
         Happening::Snapped => Some(("snaps off", event.time)),
         Happening::SlidOff => Some(("slides off", event.time)),
+        Happening::Wrapped => Some(("would wrap", event.time)),
         Happening::Met | Happening::Opened => None,
     })
 }
 
 /// The same as a sentence.
 fn lost(run: &Run) -> String {
-    let told = |(how, time)| format!(" The segment {how} at {} s and is free from then on.", number(time, 3));
-    let_go(run).map_or_else(String::new, told)
+    let Some((how, time)) = let_go(run) else { return String::new() };
+    let time = number(time, 3);
+    if run.plant_events().iter().any(|event| event.what == Happening::Wrapped) {
+        return format!(
+            " From {time} s on it would lie along the round beam, which is not modelled: it is shown free."
+        );
+    }
+    format!(" The segment {how} at {time} s and is free from then on.")
 }
 
 fn seconds(duration: f64) -> String {

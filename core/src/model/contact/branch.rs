@@ -30,6 +30,8 @@ pub enum Ending {
     Snaps,
     /// The contact slides over the end of the backbone.
     SlidesOff,
+    /// The backbone is as curved as the round beam, and would lie along it from there: that is not modelled.
+    Wraps,
     /// The contact force falls to zero.
     Opens,
 }
@@ -57,6 +59,7 @@ const NARROW: f64 = 1e-4;
 /// Steps along the branch, rad: the longest, and where the search for an end stops.
 const STRIDE: f64 = 0.1;
 const FINE: f64 = 1e-10;
+const SKETCHED: f64 = 1e-5;
 /// A shape further from where the last one led, rad per coefficient, is on another branch.
 const LEAP: f64 = 0.2;
 
@@ -164,7 +167,7 @@ impl Branch {
     /// Follows a contact from where it was met to the bend `last` (rad), which lies on its side.
     #[must_use]
     pub fn new(meeting: Meeting, surface: Surface, last: f64) -> Self {
-        let mut branch = Self::followed(meeting, surface, last);
+        let mut branch = Self::followed(meeting, surface, last, FINE);
         if let (Some(first), Some(end)) = (branch.anchors.first(), branch.anchors.last()) {
             let (from, to) = (first.bend, end.bend);
             branch.fit(from, to);
@@ -176,16 +179,16 @@ impl Branch {
     /// right to 1e-5 L, but for a contact that is about to slide off.
     #[must_use]
     pub fn sketched(meeting: Meeting, surface: Surface, last: f64) -> Self {
-        let mut branch = Self::followed(meeting, surface, last);
+        let mut branch = Self::followed(meeting, surface, last, SKETCHED);
         branch.pieces =
             branch.anchors.windows(2).map(|ends| Piece::between(&branch.basis, &ends[0], &ends[1])).collect();
         branch
     }
 
-    fn followed(meeting: Meeting, surface: Surface, last: f64) -> Self {
+    fn followed(meeting: Meeting, surface: Surface, last: f64, fine: f64) -> Self {
         let basis = Basis::new();
         let mut branch = Self { basis, meeting, surface, anchors: Vec::new(), pieces: Vec::new(), ending: None };
-        branch.follow(last);
+        branch.follow(last, fine);
         branch
     }
 
@@ -217,13 +220,20 @@ impl Branch {
     #[must_use]
     pub fn holds_at(&self, bend: f64) -> bool {
         let beyond = |limit: f64| self.meeting.side * (bend - limit);
-        beyond(self.meeting.bend) > 0.0 && self.anchors.last().is_some_and(|end| beyond(end.bend) <= 0.0)
+        // Past the last bend asked for by a rounding error, it still holds: only an ending ends it.
+        let within = |end: &Touching| self.ending.is_none() || beyond(end.bend) <= 0.0;
+        beyond(self.meeting.bend) > 0.0 && self.anchors.last().is_some_and(within)
     }
 
     /// The tip at a bend at which the contact holds; at another, that of the nearest such bend.
     #[must_use]
     pub fn tip(&self, bend: f64) -> Tip {
-        let Some((piece, x)) = self.piece(bend) else { return Tip::UNDEFINED };
+        let Some((piece, x)) = self.piece(bend) else {
+            return self.anchors.last().map_or(Tip::UNDEFINED, |only| {
+                let (position, by_bend) = only.tip(&self.basis);
+                Tip { position, by_bend }
+            });
+        };
         let [px, pz, vx, vz] = clenshaw(&piece.tip, x);
         Tip { position: Planar::new(px, pz), by_bend: Planar::new(vx, vz) }
     }
@@ -231,7 +241,10 @@ impl Branch {
     /// Bend of the part above the contact (rad), and arc length of the contact (in units of L), at a bend at which it holds.
     #[must_use]
     pub fn above(&self, bend: f64) -> (f64, f64) {
-        let Some((piece, x)) = self.piece(bend) else { return (f64::NAN, f64::NAN) };
+        let Some((piece, x)) = self.piece(bend) else {
+            let only = self.anchors.last();
+            return only.map_or((f64::NAN, f64::NAN), |only| (only.upper_bend(), only.at.place));
+        };
         let [slope, place] = clenshaw(&piece.contact, x);
         (bend - slope, place)
     }
@@ -267,8 +280,8 @@ impl Branch {
         }
     }
 
-    /// Finds anchors up to `last`, or to an end.
-    fn follow(&mut self, last: f64) {
+    /// Finds anchors up to `last`, or to an end, which is known to `fine`.
+    fn follow(&mut self, last: f64, fine: f64) {
         let Meeting { place, bend, side } = self.meeting;
         let coefficients = plane::first(self.meeting.slope());
         let start = Unknowns { coefficients, place, multiplier: 0.0 };
@@ -288,7 +301,7 @@ impl Branch {
                     self.anchors.push(near);
                     stride = (2.0 * stride).min(STRIDE);
                 }
-                Err(how) if stride < FINE => {
+                Err(how) if stride < fine => {
                     self.ending = Some((near.bend, how));
                     return;
                 }
@@ -305,6 +318,11 @@ impl Branch {
         let leap = at.coefficients.iter().zip(from.coefficients).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         if !found.stable || leap > LEAP {
             return Err(Ending::Snaps);
+        }
+        if let Surface::Cylinder { rounding } = self.surface
+            && self.meeting.side * found.touching.curvature_above() * rounding >= 1.0
+        {
+            return Err(Ending::Wraps);
         }
         // So near to the end there is no arc above the contact left to speak of.
         if at.place > 1.0 - 1e-6 || at.place < 1e-6 {
@@ -335,7 +353,10 @@ impl Branch {
         });
         let good = |piece: &Piece| {
             let mut series = piece.tip.iter().chain(&piece.contact);
-            series.all(|row| row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING))
+            series.all(|row| {
+                let size = row.iter().fold(1.0_f64, |most, term| most.max(term.abs()));
+                row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING * size)
+            })
         };
         match piece {
             Some(piece) if good(&piece) || half < NARROW => self.pieces.push(piece),

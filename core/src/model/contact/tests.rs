@@ -134,7 +134,8 @@ fn all() -> Vec<(Meeting, Surface)> {
 fn a_branch_goes_through_every_bend_and_its_polynomials_are_exact() {
     for (meeting, surface) in all() {
         let (branch, shapes) = along(&meeting, surface, PI);
-        assert!(branch.ending().is_none_or(|(_, how)| how == Ending::SlidesOff), "{meeting:?} {surface:?}");
+        let known = |how| matches!(how, Ending::SlidesOff | Ending::Wraps);
+        assert!(branch.ending().is_none_or(|(_, how)| known(how)), "{meeting:?} {surface:?}");
         for shape in shapes {
             let (tip, by) = shape.tip(branch.basis());
             let (fast, (upper, place)) = (branch.tip(shape.bend), branch.above(shape.bend));
@@ -150,10 +151,12 @@ fn a_sketched_branch_is_right_to_what_a_map_shows() {
     for (meeting, surface) in all() {
         let last = meeting.bend + meeting.side * 1.2;
         let [exact, sketched] = [Branch::new, Branch::sketched].map(|follow| follow(meeting, surface, last));
-        assert_eq!(sketched.ending(), exact.ending());
+        let [at, sketch] = [&exact, &sketched].map(Branch::ending);
+        assert_eq!(at.is_some(), sketch.is_some());
+        assert!(at.zip(sketch).is_none_or(|(at, sketch)| (at.0 - sketch.0).abs() < 1e-4), "{at:?} {sketch:?}");
         for k in 1..60 {
             let bend = meeting.bend + (last - meeting.bend) * f64::from(k) / 60.0;
-            if !exact.holds_at(bend) {
+            if !exact.holds_at(bend) || !sketched.holds_at(bend) {
                 continue;
             }
             let (a, b) = (exact.tip(bend), sketched.tip(bend));
@@ -339,4 +342,50 @@ fn a_segment_that_straightens_against_a_beam_snaps_off_where_it_is_known_to() {
         let meeting = Meeting { place, bend: 0.5 * PI, side: -1.0 };
         assert_eq!(Branch::new(meeting, Surface::Plane, 0.0).ending(), None, "{place}");
     }
+}
+
+#[test]
+fn a_backbone_as_curved_as_the_beam_would_wrap_around_it() {
+    let (branch, shapes) = along(&meeting(0.5, 0.3), Surface::Cylinder { rounding: 1.0 / 3.0 }, 2.9);
+    let (end, how) = branch.ending().expect("an end");
+    assert_eq!(how, Ending::Wraps);
+    assert!((1.6..2.0).contains(&end), "{end}");
+    assert!(shapes.iter().all(|shape| shape.curvature_above() / 3.0 < 1.0));
+}
+
+#[test]
+fn a_branch_holds_past_its_last_bend_by_rounding_and_at_first_contact() {
+    let met = meeting(0.5, 0.6);
+    let branch = Branch::new(met, Surface::Plane, 1.2);
+    assert!(branch.holds_at(1.2_f64.next_up()) && !branch.holds_at(0.6));
+    let only = Branch::new(met, Surface::Plane, 0.6);
+    let (tip, first) = (only.tip(0.6), branch.tip(0.6));
+    assert!((tip.position - first.position).norm() < 1e-12 && (tip.by_bend - first.by_bend).norm() < 1e-10);
+    assert!((only.above(0.6).0 - 0.3).abs() < 1e-15);
+}
+
+#[test]
+fn in_space_the_bending_plane_turns_with_delta_and_mirrors() {
+    use super::touched::Touched;
+    use crate::model::{Configuration, Rate, Vec3};
+    let branch = std::sync::Arc::new(Branch::new(meeting(0.5, 0.6), Surface::Plane, 1.4));
+    let at = |delta: f64| Touched::new(0.03, std::sync::Arc::clone(&branch), Configuration::new(1.3, delta));
+    let flat = at(0.0);
+    for delta in [0.7, -0.7, 2.5, PI] {
+        let turned = |v: Vec3| Vec3::new(cos(delta) * v.x + sin(delta) * v.y, cos(delta) * v.y - sin(delta) * v.x, v.z);
+        let shape = at(delta);
+        for s in [0.004, 0.015, 0.022, 0.03] {
+            assert!((shape.pose(s).position - turned(flat.pose(s).position)).norm() < 1e-15, "{delta} at {s}");
+        }
+        let [(a, by_a), (b, by_b)] = [&flat, &shape].map(Touched::tip_pose_and_jacobian);
+        assert!((b.position - turned(a.position)).norm() < 1e-15);
+        let [slow, fast] = [by_a, by_b].map(|by| by.twist(Rate::BENDING));
+        assert!((fast.linear - turned(slow.linear)).norm() < 1e-15);
+        assert!((fast.angular - turned(slow.angular)).norm() < 1e-15);
+        let centrode = shape.centrode(Rate::BENDING).expect("it bends");
+        assert!((centrode - turned(flat.centrode(Rate::BENDING).expect("it bends"))).norm() < 1e-15);
+    }
+    // Mirrored in δ, mirrored in y.
+    let [a, b] = [0.7, -0.7].map(|delta| at(delta).tip_pose().position);
+    assert!((a - Vec3::new(b.x, -b.y, b.z)).norm() < 1e-15);
 }

@@ -464,6 +464,7 @@ pub const KEYS: &[Key] = &[
         Allowed::Words(&["clamp", "plane", "as-simulated"]),
         one_of!(estimation.kind, EstimationKind::ALL),
         "What Eq. 24 takes the contact to be: clamp is a beam that holds position and slope, as in the paper; plane is one that only \
-         touches; as-simulated is what contact.kind says (a plane for a cylinder), with the bend at which the contact truly began.",
+         touches; as-simulated is what contact.kind says (a plane for a cylinder), with the bend at which the contact truly began; for a log, \
+         with that of the scenario's contact.",
     ),
 ];

@@ -29,7 +29,10 @@ impl Centrodes {
         let mut sides = vec![Side::new(plan.clone())?];
         if plan.contact().is_some() {
             let contact = Contact { kind: plan.scenario().contact.kind.other(), ..plan.scenario().contact };
-            sides.push(Side::new(Plan::new(&Scenario { contact, ..plan.scenario().clone() })?)?);
+            // A beam that only touches needs a place between the ends, which a clamp does not.
+            if let Ok(other) = Plan::new(&Scenario { contact, ..plan.scenario().clone() }) {
+                sides.push(Side::new(other)?);
+            }
         }
         Ok(Self { sides })
     }
@@ -169,7 +172,7 @@ impl Content for Centrodes {
                 "in the bending plane, marks at equal steps of θ_L".into(),
                 words::robot(scenario),
                 words::motion(scenario),
-                words::contact(plan),
+                if self.sides.len() > 1 { words::place(plan) } else { words::contact(plan) },
             ]),
         }
     }

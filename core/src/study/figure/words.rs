@@ -64,22 +64,29 @@ pub fn motion(scenario: &Scenario) -> String {
     format!("θ_L from {from} to {to} between {} s and {} s", plain(motion.start), plain(motion.finish))
 }
 
-/// Where the beam stands.
+/// Where the beam stands, and what it is.
 pub fn contact(plan: &Plan) -> String {
+    let contact = &plan.scenario().contact;
+    let with = match contact.kind {
+        _ if plan.contact().is_none() => String::new(),
+        ContactKind::Clamp => String::new(),
+        ContactKind::Plane => ", of a flat beam that only touches".into(),
+        ContactKind::Cylinder => format!(", of a round beam with ρ = {}", millimetres(contact.rounding)),
+    };
+    place(plan) + &with
+}
+
+/// Where the beam stands.
+pub fn place(plan: &Plan) -> String {
     let scenario = plan.scenario();
     let Some(contact) = plan.contact() else { return "no contact".into() };
     let place = match scenario.contact.place {
         Place::Disk(disk) => format!("on disk {disk}, s_c = {}", millimetres(contact.arc_length)),
         _ => format!("at s_c = {}", millimetres(contact.arc_length)),
     };
-    let with = match scenario.contact.kind {
-        ContactKind::Clamp => String::new(),
-        ContactKind::Plane => ", of a flat beam that only touches".into(),
-        ContactKind::Cylinder => format!(", of a round beam with ρ = {}", millimetres(scenario.contact.rounding)),
-    };
     match scenario.contact.start {
-        Start::Time(time) => format!("contact {place}, at {} s{with}", plain(time)),
-        Start::Bend(bend) => format!("contact {place}, at θ_L = {}{with}", degrees(theta_l_from_bend(bend))),
+        Start::Time(time) => format!("contact {place}, at {} s", plain(time)),
+        Start::Bend(bend) => format!("contact {place}, at θ_L = {}", degrees(theta_l_from_bend(bend))),
     }
 }
 

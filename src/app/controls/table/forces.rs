@@ -49,5 +49,10 @@ pub const CHOICES: &[Choice] = &[
         hint: "Both are drawn; the one that judges is solid.",
         options: &["constant", "follows shape"],
     },
-    Choice { of: key("estimation.kind"), label: "Located as", hint: "", options: &["clamp", "plane", "simulated"] },
+    Choice {
+        of: key("estimation.kind"),
+        label: "Located as",
+        hint: "What Eq. 24 takes the contact to be.",
+        options: &["clamp", "plane", "simulated"],
+    },
 ];
