@@ -28,10 +28,13 @@ fn table_ii_is_worked_out_in_the_page_as_natively() {
     show(&mut page, "Table II");
     let mut job = Table2Job::new(&PRESETS[0].scenario().expect("valid"), 20).expect("valid");
     job.finish();
-    for disk in job.table().simulated {
-        let found = format!("{} / {}", disk.found, disk.repeats);
-        let time = format!("{:.3} ± {:.3}", disk.detection_time.mean, disk.detection_time.deviation);
-        named(&mut page, &[&format!("Simulated by Centrode, disk {}", disk.disk), &found, &time]);
+    let table = job.table();
+    for (kind, disks) in [("a beam that clamps", table.simulated), ("a flat beam that touches", table.other)] {
+        for disk in disks {
+            let found = format!("{} / {}", disk.found, disk.repeats);
+            let time = format!("{:.3} ± {:.3}", disk.detection_time.mean, disk.detection_time.deviation);
+            named(&mut page, &[&format!("Simulated: {kind}, disk {}", disk.disk), &found, &time]);
+        }
     }
     assert_eq!(page.problems(), Vec::<String>::new());
 }

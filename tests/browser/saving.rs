@@ -61,8 +61,8 @@ fn a_figure_is_saved_as_the_command_draws_it() {
     assert_eq!(name, "figure-4.png");
     assert!(png.starts_with(b"\x89PNG\r\n\x1a\n") && png.len() > 20_000, "{} bytes", png.len());
     let (shown, drawn) = (Picture::decode(&png), Picture::decode(&written("png")));
-    assert_eq!([shown.width, shown.height], [2400, 1640]);
-    assert_eq!([drawn.width, drawn.height], [2400, 1640]);
+    assert_eq!([shown.width, shown.height], [2560, 1280]);
+    assert_eq!([drawn.width, drawn.height], [2560, 1280]);
     // Edges differ by the renderer, letters by the font: without its own the browser takes another.
     let apart = shown.changed(&drawn, Area::ALL);
     page.eval(NO_FONTS);
