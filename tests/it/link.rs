@@ -170,7 +170,7 @@ fn an_address_is_a_whole_one() {
     for address in [
         "https://example.org/",
         "http://localhost:8080/?test",
-        "file:///tmp/index.html",
+        "file:///pages/index.html",
         "https://ö.org/#x",
         "https://a.org/?a=|^{}\\`",
     ] {
