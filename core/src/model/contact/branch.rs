@@ -45,13 +45,23 @@ pub struct Tip {
     pub by_bend: Planar,
 }
 
+impl Surface {
+    /// Chebyshev points of a piece: more than a shape needs cost time, and so does a piece split in vain.
+    fn points(self) -> usize {
+        match self {
+            Self::Plane => 16,
+            Self::Cylinder { .. } => TERMS,
+        }
+    }
+}
+
 impl Tip {
     const UNDEFINED: Self =
         Self { position: Planar::new(f64::NAN, f64::NAN), by_bend: Planar::new(f64::NAN, f64::NAN) };
 }
 
-/// Chebyshev points of a piece.
-const POINTS: usize = 24;
+/// Most terms of a piece.
+const TERMS: usize = 24;
 /// A piece is good when its last coefficients are below this: they tell what is left out.
 const ROUNDING: f64 = 2e-14;
 /// No piece is split below this width, rad: near a snap the shape goes like a root.
@@ -119,10 +129,12 @@ pub struct Branch {
 struct Piece {
     middle: f64,
     half: f64,
+    /// How many terms of each series there are.
+    terms: usize,
     /// Position of the tip, and its derivative.
-    tip: [[f64; POINTS]; 4],
+    tip: [[f64; TERMS]; 4],
     /// Slope at the contact, and its place.
-    contact: [[f64; POINTS]; 2],
+    contact: [[f64; TERMS]; 2],
 }
 
 impl Piece {
@@ -142,7 +154,7 @@ impl Piece {
             let (da, db) = (da * half, db * half);
             // The Hermite cubic on [−1, 1] as a Chebyshev series.
             let (sum, difference) = (0.5 * (a + b), 0.5 * (b - a));
-            let mut series = [0.0; POINTS];
+            let mut series = [0.0; TERMS];
             series[0] = sum - (db - da) / 8.0;
             series[1] = difference + (2.0 * difference - da - db) / 16.0;
             series[2] = (db - da) / 8.0;
@@ -150,13 +162,13 @@ impl Piece {
             series
         };
         let [x, z, slope, place] = std::array::from_fn(cubic);
-        Self { middle, half, tip: [x, z, slopes(&x, half), slopes(&z, half)], contact: [slope, place] }
+        Self { middle, half, terms: 4, tip: [x, z, slopes(&x, half), slopes(&z, half)], contact: [slope, place] }
     }
 }
 
 /// The derivative of a cubic Chebyshev series over an interval of half this width.
-fn slopes(series: &[f64; POINTS], half: f64) -> [f64; POINTS] {
-    let mut by = [0.0; POINTS];
+fn slopes(series: &[f64; TERMS], half: f64) -> [f64; TERMS] {
+    let mut by = [0.0; TERMS];
     by[0] = (series[1] + 3.0 * series[3]) / half;
     by[1] = 4.0 * series[2] / half;
     by[2] = 6.0 * series[3] / half;
@@ -234,7 +246,7 @@ impl Branch {
                 Tip { position, by_bend }
             });
         };
-        let [px, pz, vx, vz] = clenshaw(&piece.tip, x);
+        let [px, pz, vx, vz] = clenshaw(&piece.tip, piece.terms, x);
         Tip { position: Planar::new(px, pz), by_bend: Planar::new(vx, vz) }
     }
 
@@ -245,7 +257,7 @@ impl Branch {
             let only = self.anchors.last();
             return only.map_or((f64::NAN, f64::NAN), |only| (only.upper_bend(), only.at.place));
         };
-        let [slope, place] = clenshaw(&piece.contact, x);
+        let [slope, place] = clenshaw(&piece.contact, piece.terms, x);
         (bend - slope, place)
     }
 
@@ -340,22 +352,23 @@ impl Branch {
         if half == 0.0 {
             return;
         }
+        let terms = self.surface.points();
         let sample = |k: usize| {
-            let x = cos(PI * (k as f64 + 0.5) / POINTS as f64);
+            let x = cos(PI * (k as f64 + 0.5) / terms as f64);
             let touching = self.exactly(middle + half * x)?;
             let (position, by_bend) = touching.tip(&self.basis);
             Some(([position.x, position.y, by_bend.x, by_bend.y], [touching.slope(), touching.at.place]))
         };
-        let samples: Option<Vec<_>> = (0..POINTS).map(sample).collect();
+        let samples: Option<Vec<_>> = (0..terms).map(sample).collect();
         let piece = samples.map(|samples| {
             let (tips, contacts): (Vec<_>, Vec<_>) = samples.into_iter().unzip();
-            Piece { middle, half, tip: coefficients(&tips), contact: coefficients(&contacts) }
+            Piece { middle, half, terms, tip: coefficients(&tips), contact: coefficients(&contacts) }
         });
         let good = |piece: &Piece| {
             let mut series = piece.tip.iter().chain(&piece.contact);
             series.all(|row| {
                 let size = row.iter().fold(1.0_f64, |most, term| most.max(term.abs()));
-                row[POINTS - 3..].iter().all(|term| term.abs() < ROUNDING * size)
+                row[terms - 3..terms].iter().all(|term| term.abs() < ROUNDING * size)
             })
         };
         match piece {
@@ -380,19 +393,24 @@ fn led(near: &Touching, bend: f64) -> Unknowns {
 }
 
 /// Chebyshev coefficients of values at the points cos(π(k + ½)/n); the first is halved.
-fn coefficients<const N: usize>(samples: &[[f64; N]]) -> [[f64; POINTS]; N] {
-    let n = POINTS as f64;
-    let term = |value: usize, j: usize| {
-        let sum: f64 = (0..POINTS).map(|k| samples[k][value] * cos(PI * j as f64 * (k as f64 + 0.5) / n)).sum();
-        if j == 0 { sum / n } else { 2.0 * sum / n }
-    };
-    std::array::from_fn(|value| std::array::from_fn(|j| term(value, j)))
+fn coefficients<const N: usize>(samples: &[[f64; N]]) -> [[f64; TERMS]; N] {
+    let points = samples.len();
+    let n = points as f64;
+    let mut all = [[0.0; TERMS]; N];
+    for j in 0..points {
+        let share = if j == 0 { 1.0 / n } else { 2.0 / n };
+        for (k, values) in samples.iter().enumerate() {
+            let weight = share * cos(PI * j as f64 * (k as f64 + 0.5) / n);
+            all.iter_mut().zip(values).for_each(|(series, value)| series[j] += weight * value);
+        }
+    }
+    all
 }
 
-/// The sums of several Chebyshev series at x in [−1, 1].
-fn clenshaw<const N: usize>(series: &[[f64; POINTS]; N], x: f64) -> [f64; N] {
+/// The sums of several Chebyshev series of some terms at x in [−1, 1].
+fn clenshaw<const N: usize>(series: &[[f64; TERMS]; N], terms: usize, x: f64) -> [f64; N] {
     let (mut a, mut b) = ([0.0; N], [0.0; N]);
-    for j in (1..POINTS).rev() {
+    for j in (1..terms).rev() {
         for v in 0..N {
             (a[v], b[v]) = (series[v][j] + 2.0 * x * a[v] - b[v], a[v]);
         }

@@ -8,7 +8,7 @@ use super::{Meeting, Touching, Unknowns};
 use libm::sincos;
 use nalgebra::{SMatrix, SVector};
 
-/// Newton's steps are over when the largest is below this, rad; then one more is made, which squares what is left.
+/// After a step below this, rad, what is left is rounding: the next system is that of the shape itself, and gives its derivative.
 const SMALL: f64 = 1e-9;
 /// It takes 6 from a cold start.
 const STEPS: usize = 40;
@@ -46,8 +46,6 @@ pub fn solve(basis: &Basis, meeting: &Meeting, bend: f64, from: Option<&Unknowns
         at.coefficients.iter_mut().zip(step.iter()).for_each(|(b, step)| *b += step);
         at.multiplier += step[MODES];
         if last {
-            // Anew, at what the last step has come to.
-            let lu = system(basis, slope, eta, held, bend, &at).0.lu();
             let mut right = Column::zeros();
             right[0] = eta;
             let by = lu.solve(&right)?;
