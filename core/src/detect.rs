@@ -6,6 +6,7 @@
 //! Nothing here knows whether a recording was simulated.
 
 pub mod alarm;
+pub mod calibration;
 pub mod evidence;
 pub mod filter;
 pub mod judge;

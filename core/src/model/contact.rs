@@ -176,5 +176,18 @@ fn arc(slope: f64, bend: f64, length: f64) -> Planar {
     turn(slope, Planar::new(bend * angle.versinc(), angle.sinc()) * length)
 }
 
+/// Where the end of a free segment is at a bend (rad), in units of L.
+#[must_use]
+pub fn free_tip(bend: f64) -> Planar {
+    arc(0.0, bend, 1.0)
+}
+
+/// The same with a clamp at `place` (in units of L) that has held the backbone since the bend `met` (rad): the paper's Eqs. 20, 21.
+#[must_use]
+pub fn clamped_tip(place: f64, met: f64, bend: f64) -> Planar {
+    let below = met * place;
+    arc(0.0, below, place) + arc(below, bend - below, 1.0 - place)
+}
+
 #[cfg(test)]
 mod tests;

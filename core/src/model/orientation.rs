@@ -55,6 +55,21 @@ pub fn vector_of_ratio(a: &Quaternion, b: &Quaternion) -> Vec3 {
     av * b[0] - bv * a[0] - av.cross(&bv)
 }
 
+/// The rotation vector of a rotation (rad): its logarithm, of an angle in [0, π].
+#[must_use]
+pub fn rotation_vector(rotation: &Mat3) -> Vec3 {
+    let sine = vee(rotation);
+    let (size, cosine) = (sine.norm(), 0.5 * (rotation.trace() - 1.0));
+    if size > 1e-7 || cosine > 0.0 {
+        // A small angle is its own sine, to rounding.
+        return if size < 1e-7 { sine } else { sine * (atan2(size, cosine) / size) };
+    }
+    // A half turn has no sine: its axis is the largest column of (R + 1)/2.
+    let square = (rotation + Mat3::identity()) * 0.5;
+    let axis = square.column(square.diagonal().imax()).into_owned();
+    axis.normalize() * std::f64::consts::PI
+}
+
 /// The vector of the skew part of a matrix: the inverse of the hat, [·]^∨.
 #[must_use]
 pub fn vee(matrix: &Mat3) -> Vec3 {

@@ -14,6 +14,8 @@ pub enum Source {
     LoadCells = 2,
     /// The load cells' relative errors.
     CellErrors = 3,
+    /// Draws of a bound, which belong to no sensor.
+    Bound = 64,
 }
 
 /// A stream of standard normal deviates.

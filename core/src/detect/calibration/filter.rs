@@ -1,0 +1,176 @@
+//! The Kalman filter of the calibration: gains that depend on no reading, and the few numbers that do.
+
+use super::linear::Linear;
+use super::{Belief, Columns, DRIFT, Noise, STATES, Six, States};
+use libm::exp;
+use nalgebra::SMatrix;
+
+type Square = SMatrix<f64, STATES, STATES>;
+
+/// One reading's worth of filter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stage {
+    /// L⁻¹, where L Lᵀ is the covariance of what is left of the residual.
+    pub whitener: SMatrix<f64, 6, 6>,
+    /// L⁻¹ H: what the errors add to an innovation.
+    pub seen: Columns,
+    /// What an innovation adds to the errors.
+    pub gain: SMatrix<f64, STATES, 6>,
+    /// What is left of the last reading's drift.
+    pub kept: f64,
+    /// ρ: how much of the last residual is in this one.
+    pub colour: f64,
+    /// Whether the tracker is thought to drift.
+    pub drifts: bool,
+}
+
+/// Makes stages, one reading after the other.
+#[derive(Debug, Clone)]
+pub struct Designer {
+    belief: Belief,
+    noise: Noise,
+    covariance: Square,
+    last: Option<(f64, Columns)>,
+}
+
+impl Designer {
+    /// Before the first reading.
+    #[must_use]
+    pub fn new(belief: &Belief, noise: Noise) -> Self {
+        Self { belief: *belief, noise, covariance: Square::identity(), last: None }
+    }
+
+    /// The stage of the next reading, taken at `time` (s).
+    #[must_use]
+    pub fn next(&mut self, time: f64, linear: &Linear) -> Stage {
+        let Self { belief, noise, covariance, last } = self;
+        let mut scaled = linear.by_error;
+        for (mut column, deviation) in scaled.column_iter_mut().zip(belief.deviations) {
+            column *= deviation;
+        }
+        // Noise of first order becomes white in what is new of each residual.
+        let (colour, white) = match last {
+            Some(_) => (noise.colour, 1.0 - noise.colour * noise.colour),
+            None => (0.0, 1.0),
+        };
+        let mut columns = scaled;
+        if let Some((_, before)) = last
+            && colour > 0.0
+        {
+            columns -= *before * colour;
+        }
+        let kept = last.as_ref().map_or(1.0, |(before, _)| kept(belief, time - before));
+        if kept < 1.0 {
+            for i in DRIFT..STATES {
+                covariance.row_mut(i).scale_mut(kept);
+                covariance.column_mut(i).scale_mut(kept);
+                covariance[(i, i)] += 1.0 - kept * kept;
+            }
+        }
+        let (place, turn) = (white * noise.position * noise.position, white * noise.orientation * noise.orientation);
+        let free = belief.free_bend * belief.free_bend * (1.0 + colour * colour);
+        let mut spread = linear.by_bend * linear.by_bend.transpose() * free;
+        for (i, variance) in [turn, place, place, place, turn, turn].into_iter().enumerate() {
+            spread[(i, i)] += variance;
+        }
+        let across: SMatrix<f64, STATES, 6> = *covariance * columns.transpose();
+        spread += columns * across;
+        let lower = spread.cholesky().map_or_else(SMatrix::<f64, 6, 6>::identity, |cholesky| cholesky.unpack());
+        let mut whitener = SMatrix::<f64, 6, 6>::identity();
+        // A lower triangle with a positive diagonal has an inverse.
+        let _ = lower.solve_lower_triangular_mut(&mut whitener);
+        let seen = whitener * columns;
+        let gain = across * whitener.transpose();
+        *covariance -= gain * gain.transpose();
+        *last = Some((time, scaled));
+        Stage { whitener, seen, gain, kept, colour, drifts: drifts(belief) }
+    }
+
+    /// Covariance of the errors after the last reading, in units of their prior deviations.
+    #[must_use]
+    pub fn covariance(&self) -> &Square {
+        &self.covariance
+    }
+}
+
+fn drifts(belief: &Belief) -> bool {
+    belief.deviations[DRIFT..].iter().any(|deviation| *deviation != 0.0)
+}
+
+/// What is left of the drift after `interval` (s).
+fn kept(belief: &Belief, interval: f64) -> f64 {
+    if drifts(belief) { exp(-interval / belief.drift_time) } else { 1.0 }
+}
+
+/// What the filter knows of one run, or of one signature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Filter {
+    /// Estimate of the errors, in units of their prior deviations.
+    pub states: States,
+    /// The last residual.
+    last: Six,
+}
+
+impl Default for Filter {
+    fn default() -> Self {
+        Self { states: States::zeros(), last: Six::zeros() }
+    }
+}
+
+impl Filter {
+    /// Takes the next residual and returns its innovation.
+    #[inline]
+    pub fn step(&mut self, stage: &Stage, residual: &Six) -> Six {
+        let fresh = if stage.colour == 0.0 { *residual } else { residual - self.last * stage.colour };
+        self.last = *residual;
+        if stage.kept < 1.0 {
+            self.states.rows_mut(DRIFT, STATES - DRIFT).scale_mut(stage.kept);
+        }
+        let innovation = stage.whitener * fresh - stage.seen * self.states;
+        self.states += stage.gain * innovation;
+        innovation
+    }
+}
+
+/// A signature on its way through the filter: the same for what has no part out of the bending plane, at a third of the price.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    states: [f64; STATES],
+    last: [f64; 2],
+}
+
+impl Default for Response {
+    fn default() -> Self {
+        Self { states: [0.0; STATES], last: [0.0; 2] }
+    }
+}
+
+impl Response {
+    /// What an offset of the end disk in the bending plane (m), toward the bend and along the straight backbone, adds to the innovation
+    /// of a reading: to its part in the plane.
+    #[inline]
+    pub fn step(&mut self, stage: &Stage, off: [f64; 2]) -> [f64; 3] {
+        let fresh = [0, 1].map(|i| off[i] - self.last[i] * stage.colour);
+        self.last = off;
+        let states = if stage.drifts { STATES } else { DRIFT };
+        if stage.kept < 1.0 {
+            self.states[DRIFT..].iter_mut().for_each(|state| *state *= stage.kept);
+        }
+        let mut seen = [0.0; 3];
+        for (row, seen) in seen.iter_mut().enumerate() {
+            *seen = stage.whitener[(row, 1)] * fresh[0] + stage.whitener[(row, 2)] * fresh[1];
+        }
+        let (columns, gains) = (stage.seen.as_slice(), stage.gain.as_slice());
+        for (state, column) in self.states[..states].iter().zip(columns.chunks_exact(6)) {
+            for (seen, by) in seen.iter_mut().zip(column) {
+                *seen -= by * state;
+            }
+        }
+        for (seen, gain) in seen.iter().zip(gains.chunks_exact(STATES)) {
+            for (state, gain) in self.states[..states].iter_mut().zip(gain) {
+                *state += gain * seen;
+            }
+        }
+        seen
+    }
+}

@@ -1,0 +1,198 @@
+//! What readings say of their own noise: its size while the robot stands still, and whether innovations are white.
+
+use super::linear::Linear;
+use super::{Command, Noise, Six};
+use crate::model::Pose;
+use libm::{exp, log, sqrt};
+
+/// Fewer still readings than this say too little of their noise.
+pub const STILL: usize = 20;
+/// Noise is never taken for less: a tracker without any still rounds.
+pub const FLOOR: Noise = Noise { position: 5e-6, orientation: 2e-5, colour: 0.0 };
+/// A correlation below this many of its standard errors is taken for none.
+const PLAIN: f64 = 3.0;
+const MOST: f64 = 0.99;
+
+/// How many readings were taken before the robot first moved.
+#[must_use]
+pub fn still(commands: &[Command]) -> usize {
+    let moved = |pair: &[Command]| pair[0].bend != pair[1].bend || pair[1].rate != 0.0;
+    commands.windows(2).position(moved).map_or(commands.len(), |last| last + 1)
+}
+
+/// Noise of readings that were taken while the robot stood still; `None` where there are fewer than [`STILL`].
+///
+/// Deviations are those of successive differences, which know no offset, undone of the correlation; the correlation is that of
+/// successive readings, and none where it may be by chance. Nothing is below [`FLOOR`].
+#[must_use]
+pub fn measured(length: f64, command: &Command, readings: &[Pose]) -> Option<Noise> {
+    if readings.len() < STILL {
+        return None;
+    }
+    let linear = Linear::nominal(length, command);
+    let all: Vec<Six> = readings.iter().map(|reading| linear.residual(reading)).collect();
+    let count = all.len() as f64;
+    let mean = all.iter().sum::<Six>() / count;
+    let (mut squares, mut products) = (Six::zeros(), Six::zeros());
+    for (k, residual) in all.iter().enumerate() {
+        let off = residual - mean;
+        squares += off.component_mul(&off);
+        if k > 0 {
+            products += off.component_mul(&(all[k - 1] - mean));
+        }
+    }
+    let places = [1, 2, 3];
+    let turns = [0, 4, 5];
+    let variance = |of: [usize; 3]| of.iter().map(|&i| squares[i]).sum::<f64>() / (3.0 * (count - 1.0));
+    let shares: Vec<f64> = (0..6).filter(|&i| squares[i] > 0.0).map(|i| products[i] / squares[i]).collect();
+    let share = if shares.is_empty() { 0.0 } else { shares.iter().sum::<f64>() / shares.len() as f64 };
+    // Taking the mean away makes the correlation come out lower by about (1 + 3ρ)/n.
+    let colour = share + (1.0 + 3.0 * share) / count;
+    let error = 1.0 / sqrt(shares.len().max(1) as f64 * count);
+    let colour = if colour > PLAIN * error { colour.min(MOST) } else { 0.0 };
+    Some(Noise {
+        position: sqrt(variance(places)).max(FLOOR.position),
+        orientation: sqrt(variance(turns)).max(FLOOR.orientation),
+        colour,
+    })
+}
+
+/// A test of whether innovations are white.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Whiteness {
+    /// Ljung and Box's Q: n(n + 2) Σ ρ̂²/(n − lag), summed over components and lags.
+    pub statistic: f64,
+    /// How many terms it has: the mean of Q for white innovations.
+    pub degrees: usize,
+    /// How often white innovations give as much.
+    pub p_value: f64,
+}
+
+/// Lags that are looked at.
+const LAGS: usize = 10;
+/// Below this p-value innovations are not taken for white.
+pub const SUSPECT: f64 = 1e-3;
+
+impl Whiteness {
+    /// Of successive innovations. `None` of fewer than ten times the lags, or where they are all zero.
+    ///
+    /// The first component is left out: it has the freedom of the bend, which may be as coloured as it likes.
+    #[must_use]
+    pub fn of(innovations: &[Six]) -> Option<Self> {
+        let count = innovations.len();
+        if count < 10 * LAGS {
+            return None;
+        }
+        let (mut statistic, mut degrees) = (0.0, 0);
+        for i in 1..6 {
+            let mean = innovations.iter().map(|nu| nu[i]).sum::<f64>() / count as f64;
+            let off: Vec<f64> = innovations.iter().map(|nu| nu[i] - mean).collect();
+            let square: f64 = off.iter().map(|x| x * x).sum();
+            // What is far below the noise that was assumed is rounding, and may have any colour.
+            if square < 1e-6 * count as f64 {
+                continue;
+            }
+            for lag in 1..=LAGS {
+                let share = off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum::<f64>() / square;
+                statistic += share * share / (count - lag) as f64;
+            }
+            degrees += LAGS;
+        }
+        if degrees == 0 {
+            return None;
+        }
+        let count = count as f64;
+        let statistic = statistic * count * (count + 2.0);
+        Some(Self { statistic, degrees, p_value: exceeded(statistic, degrees) })
+    }
+
+    /// Whether innovations are too coloured for the detector's thresholds and intervals to be believed.
+    #[must_use]
+    pub fn fails(&self) -> bool {
+        self.p_value < SUSPECT
+    }
+}
+
+/// How often a χ² variable of an even number of degrees of freedom exceeds a value: e^{−x} Σ xⁱ/i! with x half the value.
+fn exceeded(value: f64, degrees: usize) -> f64 {
+    let half = 0.5 * value;
+    // In logarithms, for a large value takes e^{−x} to zero before its terms have grown.
+    let (mut log_term, mut sum) = (-half, 0.0);
+    for i in 0..degrees / 2 {
+        if i > 0 {
+            log_term += log(half / i as f64);
+        }
+        sum += exp(log_term);
+    }
+    if half > 0.0 { sum.min(1.0) } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::detect::calibration::course::planar;
+    use crate::sensors::noise::{Normal, Source};
+
+    #[test]
+    fn chi_squares_are_exceeded_as_tables_have_it() {
+        for (value, degrees, p) in [(3.841_46, 2, 0.146_5), (18.307, 10, 0.05), (76.154, 50, 0.01), (1e5, 50, 0.0)] {
+            assert!((exceeded(value, degrees) - p).abs() < 1e-4, "{value} {degrees}: {}", exceeded(value, degrees));
+        }
+        assert_eq!(exceeded(0.0, 50), 1.0);
+    }
+
+    /// Still readings with noise of first order.
+    fn still(colour: f64, position: f64, orientation: f64, seed: u64) -> Vec<Pose> {
+        let mut normal = Normal::new(seed, Source::Tracker);
+        let mut last = [0.0; 3];
+        let fresh = sqrt(1.0 - colour * colour);
+        (0..300)
+            .map(|k| {
+                last = last.map(|x| if k == 0 { normal.draw() } else { colour * x + fresh * normal.draw() });
+                planar(last[0] * position, 0.03 + last[1] * position, last[2] * orientation)
+            })
+            .collect()
+    }
+
+    #[test]
+    fn noise_is_measured_where_the_robot_stands_still() {
+        let command = Command { time: 0.0, bend: 0.0, rate: 0.0, delta: 0.0 };
+        for (colour, position, orientation) in [(0.0, 5e-5, 2e-4), (0.5, 5e-4, 2e-3), (0.8, 1e-4, 1e-3)] {
+            let all: Vec<Noise> = (1..40)
+                .map(|seed| still(colour, position, orientation, seed))
+                .map(|readings| measured(0.03, &command, &readings).expect("enough"))
+                .collect();
+            let mean = |of: fn(&Noise) -> f64| all.iter().map(of).sum::<f64>() / all.len() as f64;
+            // Of three coordinates two move, of three angles one.
+            let planar = [sqrt(2.0 / 3.0), sqrt(1.0 / 3.0)];
+            assert!((mean(|noise| noise.position) / (position * planar[0]) - 1.0).abs() < 0.04, "{all:?}");
+            assert!((mean(|noise| noise.orientation) / (orientation * planar[1]) - 1.0).abs() < 0.06, "{all:?}");
+            assert!((mean(|noise| noise.colour) - colour).abs() < 0.02, "{colour}: {}", mean(|noise| noise.colour));
+        }
+        let exact = vec![planar(0.0, 0.03, 0.0); 100];
+        assert_eq!(measured(0.03, &command, &exact), Some(FLOOR));
+        assert_eq!(measured(0.03, &command, &exact[..STILL - 1]), None);
+    }
+
+    #[test]
+    fn coloured_innovations_are_told_from_white_ones() {
+        let innovations = |colour: f64, seed: u64| -> Vec<Six> {
+            let mut normal = Normal::new(seed, Source::Tracker);
+            let mut last = Six::zeros();
+            let fresh = sqrt(1.0 - colour * colour);
+            (0..500)
+                .map(|_| {
+                    last = last.map(|x| colour * x + fresh * normal.draw());
+                    last
+                })
+                .collect()
+        };
+        let fails = |colour: f64| {
+            (0..200).filter(|seed| Whiteness::of(&innovations(colour, *seed)).is_some_and(|test| test.fails())).count()
+        };
+        assert!(fails(0.0) <= 2, "{}", fails(0.0));
+        assert_eq!(fails(0.3), 200);
+        assert_eq!(Whiteness::of(&vec![Six::zeros(); 500]), None);
+        assert_eq!(Whiteness::of(&innovations(0.0, 1)[..99]), None);
+    }
+}
