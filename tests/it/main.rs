@@ -6,6 +6,7 @@
     reason = "tests read files, run programs and wait for them"
 )]
 
+mod calibration;
 #[cfg(feature = "cli")]
 mod cli;
 #[cfg(feature = "cli")]
