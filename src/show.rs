@@ -40,7 +40,7 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
     let (shape, truth) = (run.shape(place), run.truth(place));
     let configuration = run.commanded(place);
     let held = truth.is_some_and(|truth| truth.held.is_some());
-    let (sizes, length) = (Proportions::of(run), run.plan.segment().length);
+    let (sizes, length) = (Proportions::of(run), run.segment().length);
     let delta = configuration.delta() as f32;
     let mut scene = Scene { ground: Some(floor(run, palette, &sizes)), ..Scene::default() };
     let pose = |s: f32| scene_pose(&shape.pose(f64::from(s)));
@@ -55,8 +55,10 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
         }
     }
     if held {
-        let free = Arc { length, configuration };
-        robot::ghost(&mut scene, palette.model, &sizes, |s| scene_pose(&free.pose(f64::from(s))));
+        // Of the model, whose length may be another.
+        let free = run.plan.segment().arc(configuration);
+        let share = free.length / length;
+        robot::ghost(&mut scene, palette.model, &sizes, |s| scene_pose(&free.pose(share * f64::from(s))));
     }
     if let Some(frozen) = obstacle::frozen(run, place).filter(|_| options.frozen) {
         robot::ghost(&mut scene, palette.constrained, &sizes, |s| scene_pose(&frozen.pose(f64::from(s))));

@@ -13,6 +13,7 @@ pub mod chart;
 pub mod detect;
 pub mod fingerprints;
 pub mod model;
+pub mod noise;
 pub mod plant;
 pub mod record;
 pub mod run;

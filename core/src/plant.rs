@@ -61,7 +61,7 @@ impl Shape {
     }
 }
 
-/// The robot and its beam.
+/// The robot and its beam. Configurations that it is asked about are commanded ones; what it answers is true of the true robot.
 #[derive(Debug, Clone)]
 pub struct Plant<'a> {
     plan: &'a Plan,
@@ -85,18 +85,22 @@ impl<'a> Plant<'a> {
     /// Which of the plan's contacts holds the backbone in a commanded configuration.
     #[must_use]
     pub fn held(&self, configuration: &Configuration) -> Option<usize> {
-        self.plan.contacts().iter().position(|contact| contact.holds_at(configuration.bend()))
+        self.holding(&self.plan.true_robot().configuration(*configuration)).map(|(place, _)| place)
     }
 
-    fn holding(&self, configuration: &Configuration) -> Option<&PlannedContact> {
-        self.held(configuration).map(|place| &self.plan.contacts()[place])
+    /// Which contact holds in a true configuration.
+    fn holding(&self, truly: &Configuration) -> Option<(usize, &PlannedContact)> {
+        self.plan.contacts().iter().enumerate().find(|(_, contact)| contact.holds_at(truly.bend()))
     }
 
     /// The true shape in a commanded configuration.
     #[must_use]
     pub fn shape(&self, configuration: Configuration) -> Shape {
-        let length = self.plan.segment().length;
-        let Some(contact) = self.holding(&configuration) else { return Shape::Free(Arc { length, configuration }) };
+        let robot = self.plan.true_robot();
+        let (length, configuration) = (robot.segment().length, robot.configuration(configuration));
+        let Some((_, contact)) = self.holding(&configuration) else {
+            return Shape::Free(Arc { length, configuration });
+        };
         match contact.branch() {
             Some(branch) => Shape::Touched(Touched::new(length, std::sync::Arc::clone(branch), configuration)),
             None => Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, configuration)),
@@ -123,9 +127,11 @@ impl<'a> Plant<'a> {
     /// constant curvature says nothing there.
     #[must_use]
     pub fn joint_forces(&self, configuration: Configuration, wrench: &Wrench) -> Vec3 {
-        let segment = self.plan.segment();
+        let robot = self.plan.true_robot();
         let preload = self.plan.scenario().load_cells.preload;
-        let (part, shape) = moved_part(segment, self.holding(&configuration), configuration);
+        let truly = robot.configuration(configuration);
+        let contact = self.holding(&truly).map(|(_, contact)| contact);
+        let (part, shape) = moved_part(robot.segment(), contact, truly);
         if part.shortest_backbone(shape.bend()) <= 0.0 {
             return Vec3::repeat(f64::NAN);
         }
@@ -139,7 +145,7 @@ impl<'a> Plant<'a> {
     }
 }
 
-/// The part of a segment that moves in a commanded configuration, and that part's own shape: all of it, or what is
+/// The part of a segment that moves in a true configuration, and that part's own shape: all of it, or what is
 /// above the beam.
 #[must_use]
 pub fn moved_part(

@@ -8,7 +8,7 @@ pub use simulation::Simulation;
 
 use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
-use crate::model::Vec3;
+use crate::model::{Segment, Vec3};
 use crate::plant::{Happening, PlantEvent, Shape};
 use crate::record::{Entry, Recording, Truth};
 use crate::scenario::keys::{Allowed, Quantity, Value};
@@ -253,6 +253,12 @@ impl Run {
         self.truth(k).map_or_else(free, |truth| truth.shape.clone().detailed())
     }
 
+    /// The segment as it is: the true one of a simulation, the model's for a log.
+    #[must_use]
+    pub fn segment(&self) -> &Segment {
+        if self.is_recorded() { self.plan.segment() } else { self.plan.true_robot().segment() }
+    }
+
     /// Threshold crossings, in order.
     #[must_use]
     pub fn crossings(&self) -> &[Crossing] {
@@ -304,13 +310,14 @@ fn same_recording(one: &Scenario, other: &Scenario) -> bool {
         tracker,
         load_cells,
         load,
+        calibration,
         filter: _,
         detection: _,
         estimation: _,
     } = one;
     (*loop_rate, *seed, *contact) == (other.loop_rate, other.seed, other.contact)
         && (robot, motion, tracker) == (&other.robot, &other.motion, &other.tracker)
-        && (load_cells, load) == (&other.load_cells, &other.load)
+        && (load_cells, load, calibration) == (&other.load_cells, &other.load, &other.calibration)
 }
 
 /// A running hash over the channels' bits, a word at a time (FNV's multiplier with a rotation, so that high bits
@@ -384,13 +391,14 @@ mod tests {
         let mut run = simulate(&bench).expect("valid");
         let mut scenario = bench.clone();
         type Change = fn(&mut Scenario);
-        let changes: [(Anew, Change); 7] = [
+        let changes: [(Anew, Change); 8] = [
             (Anew::Nothing, |_| ()),
             (Anew::Events, |s| s.detection.xi2 = crate::scenario::Threshold::On(0.005)),
             (Anew::Events, |s| s.detection.min_speed = 0.3),
             (Anew::Evidence, |s| s.filter.length = 123),
             (Anew::Recording, |s| s.load_cells.epsilon_tau = 0.05),
             (Anew::Recording, |s| s.seed = 5),
+            (Anew::Recording, |s| s.calibration.bend_offset = 0.02),
             (Anew::Events, |s| s.detection.hold = 0.0),
         ];
         for (anew, change) in changes {

@@ -2,8 +2,8 @@
 //!
 //! Reading order: [`inputs`] (the values, as written in TOML), [`keys`] (the table of them: what each means and may be),
 //! [`text`] (reading them), [`overrides`] (one setting in place of another), [`refusal`] (what is wrong where), [`plan`] (the
-//! same, validated and resolved: what follows cannot fail), [`motion`] (the commanded bend), [`preset`], [`link`] (a scenario in
-//! the address of a page).
+//! same, validated and resolved: what follows cannot fail), [`motion`] (the commanded bend), [`true_robot`] (what it truly
+//! comes to), [`preset`], [`link`] (a scenario in the address of a page).
 
 pub mod inputs;
 pub mod keys;
@@ -14,8 +14,10 @@ pub mod plan;
 pub mod preset;
 pub mod refusal;
 pub mod text;
+pub mod true_robot;
 
 pub use inputs::*;
 pub use overrides::Override;
 pub use plan::Plan;
 pub use refusal::{Refused, ScenarioError};
+pub use true_robot::TrueRobot;

@@ -1,5 +1,4 @@
 //! What is measured of the robot: truth in, readings out.
 
 pub mod cells;
-pub mod noise;
 pub mod tracker;

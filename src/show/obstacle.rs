@@ -55,7 +55,7 @@ impl Obstacle {
     #[must_use]
     pub fn of(run: &Run, sizes: &Proportions) -> Option<Self> {
         let contact = run.plan.contact()?;
-        let length = run.plan.segment().length;
+        let length = run.segment().length;
         let met = Arc { length, configuration: Configuration::new(0.0, 0.0).with_bend(contact.bend) };
         let position = met.pose(contact.arc_length).position;
         let touches = Planar::new(position.x, position.z);
@@ -141,13 +141,13 @@ impl Push {
     pub fn of(run: &Run, sizes: &Proportions, shape: &Shape) -> Option<Self> {
         let (Shape::Touched(touched), contact) = (shape, run.plan.contact()?) else { return None };
         let (branch, touching) = (touched.branch(), touched.touching()?);
-        let segment = run.plan.segment();
+        let segment = run.segment();
         let (place, _) = touching.point(branch.basis(), touching.at.place);
         let toward = normal(touching.force_slope) * contact.side;
         let at = place * segment.length + toward * envelope(contact, sizes, segment.length);
         let force = contact.side * touching.force();
         let motion = &run.plan.scenario().motion;
-        let ends = [motion.start, motion.finish].map(|time| run.commanded(run.place(time)).bend());
+        let ends = [motion.start, motion.finish].map(|time| truly(run, run.place(time)).bend());
         let furthest = ends.into_iter().map(|bend| contact.side * bend).fold(f64::NEG_INFINITY, f64::max);
         let last = branch.ending().map_or(contact.side * furthest, |(bend, _)| bend);
         let largest = branch.shape(last).map_or(0.0, |shape| contact.side * shape.force()).max(force);
@@ -169,9 +169,15 @@ pub fn only_touches(run: &Run) -> bool {
 pub fn let_go(run: &Run, place: usize) -> bool {
     let ended = |contact: &PlannedContact| {
         let (last, _) = contact.branch()?.ending()?;
-        Some(contact.side * (run.commanded(place).bend() - last) > 0.0)
+        Some(contact.side * (truly(run, place).bend() - last) > 0.0)
     };
     run.plan.contact().and_then(ended).unwrap_or(false)
+}
+
+/// The true configuration at a place of a run; that of the command for a log.
+fn truly(run: &Run, place: usize) -> Configuration {
+    let commanded = run.commanded(place);
+    if run.is_recorded() { commanded } else { run.plan.true_robot().configuration(commanded) }
 }
 
 /// Where the paper's model has the backbone at a place of a run while a beam touches it that does not clamp: frozen below the contact.
@@ -179,8 +185,8 @@ pub fn let_go(run: &Run, place: usize) -> bool {
 pub fn frozen(run: &Run, place: usize) -> Option<Shape> {
     let contact = run.plan.contact()?;
     matches!(run.truth(place)?.shape, Shape::Touched(_)).then(|| {
-        let length = run.plan.segment().length;
-        Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, run.commanded(place)))
+        let length = run.segment().length;
+        Shape::Held(Constrained::new(length, contact.arc_length, contact.bend, truly(run, place)))
     })
 }
 

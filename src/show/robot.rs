@@ -28,12 +28,14 @@ impl Proportions {
     /// Of the robot of a run.
     pub fn of(run: &Run) -> Self {
         let robot = &run.plan.scenario().robot;
-        let (length, pitch) = (robot.length as f32, robot.pitch_radius as f32);
+        let length = run.segment().length;
+        let pitch = robot.pitch_radius as f32;
         let (primary, secondary) =
             (robot.primary.outer_diameter as f32 / 2.0, robot.secondary.outer_diameter as f32 / 2.0);
         let disk = pitch + (2.6 * secondary).max(0.3 * pitch);
-        let spacers = robot.disks.iter().map(|&s| s as f32).collect();
-        Self { length, pitch, disk, beam: 0.5 * pitch, primary, secondary, spacers, floor: -0.62 * disk }
+        // On a backbone that is shorter than its model, disks may come to lie at its end.
+        let spacers = robot.disks.iter().map(|&s| s.min(length) as f32).collect();
+        Self { length: length as f32, pitch, disk, beam: 0.5 * pitch, primary, secondary, spacers, floor: -0.62 * disk }
     }
 
     /// Points around the base and around the end disk at `tip`: what a picture must hold of the robot in a shape.

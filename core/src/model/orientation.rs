@@ -1,5 +1,6 @@
 //! Azimuth, elevation and roll, and unit quaternions: how orientations are reported and averaged.
 
+use crate::model::special::Angle;
 use crate::model::{Mat3, Vec3};
 use libm::{asin, atan2, sincos};
 
@@ -24,6 +25,14 @@ pub fn from_euler_sin_cos(angles: &[(f64, f64); 3]) -> Mat3 {
         ce * sr,
         ce * cr,
     )
+}
+
+/// The rotation about `vector` by its length in rad (Rodrigues).
+#[must_use]
+pub fn from_vector(vector: &Vec3) -> Mat3 {
+    let angle = Angle::new(vector.norm());
+    let hat = vector.cross_matrix();
+    Mat3::identity() + hat * angle.sinc() + hat * hat * angle.versinc()
 }
 
 /// Azimuth, elevation, roll of a rotation, rad; elevation in [−π/2, π/2].

@@ -31,7 +31,7 @@ pub struct PlantEvent {
     pub contact: usize,
     /// The first instant of the loop at which it has happened, s.
     pub time: f64,
-    /// Bend φ of the whole segment at which it happens, rad.
+    /// True bend φ of the whole segment at which it happens, rad.
     pub bend: f64,
 }
 
@@ -50,7 +50,7 @@ impl Watch {
             return;
         }
         if let Some(contact) = before {
-            let (what, bend) = left(&plan.contacts()[contact], configuration.bend());
+            let (what, bend) = left(&plan.contacts()[contact], plan.true_robot().bend(configuration.bend()));
             self.events.push(PlantEvent { what, contact, time, bend });
         }
         if let Some(contact) = held {

@@ -33,7 +33,7 @@ pub struct Script {
 }
 
 impl Script {
-    /// Of a plan; its seed does not matter.
+    /// Of a plan; its seed matters only where the true robot is drawn from it.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let plant = Plant::new(plan);
@@ -72,7 +72,8 @@ impl Script {
         self.contact.map(|sample| self.steps[sample].time)
     }
 
-    /// The tracker's readings in one repeat. `plan` is the script's own but for its seed.
+    /// The tracker's readings in one repeat. `plan` is the script's own but for its seed, or as it is where that
+    /// draws the true robot.
     pub fn readings(&self, plan: &Plan) -> impl Iterator<Item = Reading> {
         let mut tracker = SimulatedTracker::new(plan);
         let mut tips = self.tips.iter();
@@ -80,7 +81,8 @@ impl Script {
         self.steps.iter().map(move |step| tracker.read(step.time, |_| *tips.next().expect("a tip for each reading")))
     }
 
-    /// What is stored of one repeat: the same as [`super::Recorder`] gives. `plan` is the script's own but for its seed.
+    /// What is stored of one repeat: the same as [`super::Recorder`] gives. `plan` is the script's own but for its seed, or as it is where that
+    /// draws the true robot.
     pub fn entries(&self, plan: &Plan) -> impl Iterator<Item = Entry> {
         let mut cells = SimulatedCells::new(plan);
         self.steps.iter().zip(self.readings(plan)).map(move |(step, reading)| {
@@ -112,5 +114,21 @@ mod tests {
                 assert_eq!(script.entries(&plan).count(), plan.samples());
             }
         }
+    }
+
+    #[test]
+    fn repeats_of_one_script_differ_in_drift_and_noise_as_they_would_alone() {
+        let mut scenario = PRESETS[0].scenario().expect("a preset");
+        scenario.tracker.position_noise = 1e-4;
+        (scenario.calibration.drift, scenario.calibration.colour) = (1e-4, 0.5);
+        scenario.calibration.frame = [1e-3, 0.0, 0.0];
+        let plan = Plan::new(&scenario).expect("possible");
+        let script = Script::new(&plan);
+        for seed in [3, 77] {
+            let plan = plan.with_seed(seed);
+            let alone = Recorder::new(&plan).map(|(entry, _)| entry.reading);
+            assert!(script.readings(&plan).eq(alone));
+        }
+        assert!(script.readings(&plan.with_seed(3)).ne(script.readings(&plan.with_seed(77))));
     }
 }

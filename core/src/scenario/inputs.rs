@@ -2,8 +2,10 @@
 //!
 //! Every default is the paper's, or is marked *illustrative* where the paper gives none.
 
+mod calibration;
 mod contact;
 
+pub use calibration::{Calibration, Draw};
 pub use contact::{Contact, ContactKind, Place, Start};
 
 use crate::model::Segment;
@@ -30,6 +32,8 @@ pub struct Scenario {
     pub load_cells: LoadCells,
     /// The wrench on the end disk.
     pub load: Load,
+    /// How the true robot differs from its model.
+    pub calibration: Calibration,
     /// The moving average over the tracker's readings.
     pub filter: Filter,
     /// Thresholds and arming.
@@ -49,6 +53,7 @@ impl Default for Scenario {
             tracker: Tracker::default(),
             load_cells: LoadCells::default(),
             load: Load::default(),
+            calibration: Calibration::default(),
             filter: Filter::default(),
             detection: Thresholds::default(),
             estimation: Estimation::default(),

@@ -6,11 +6,10 @@ use crate::model::contact::Meeting;
 use crate::model::contact::branch::{Branch, Surface, Touch};
 use crate::scenario::keys::Allowed;
 use crate::scenario::keys::allowed::{Limit, bend_refused};
-use crate::scenario::keys::{KEYS, Quantity, Value};
+use crate::scenario::keys::{self, KEYS, Quantity, Value};
 use crate::scenario::motion;
 use crate::scenario::refusal::{Refused, ScenarioError};
-use crate::scenario::{Contact, ContactKind, Motion, Place, Scenario, Start, Thresholds};
-use std::num::NonZeroU64;
+use crate::scenario::{Contact, ContactKind, Draw, Motion, Place, Scenario, Start, Thresholds, TrueRobot};
 use std::sync::Arc;
 
 /// The longest run, in samples.
@@ -38,7 +37,7 @@ pub const MAX_SEED: u64 = i64::MAX as u64;
 pub struct PlannedContact {
     /// Where the beam meets the backbone, arc length in m.
     pub arc_length: f64,
-    /// Bend φ of the whole segment at contact, rad; the beam holds while the bend is beyond it.
+    /// True bend φ of the whole segment at contact, rad; the beam holds while the true bend is beyond it.
     pub bend: f64,
     /// +1 when "beyond" means a larger bend, −1 when it means a smaller one.
     pub side: f64,
@@ -48,14 +47,20 @@ pub struct PlannedContact {
 
 impl PlannedContact {
     /// A beam at `arc_length` (m) that holds beyond `bend` (rad), whichever way the motion goes through it; of the scenario's
-    /// kind. Its shapes are sketched ([`Branch::sketched`]): one of many on a map.
+    /// kind, against the robot as calibrated. Its shapes are sketched ([`Branch::sketched`]): one of many on a map.
     #[must_use]
     pub fn beyond(arc_length: f64, bend: f64, scenario: &Scenario) -> Self {
-        Self::new((arc_length, bend), side_beyond(bend, &scenario.motion), scenario, true)
+        Self::new(
+            (arc_length, bend),
+            side_beyond(bend, &scenario.motion),
+            scenario,
+            &TrueRobot::nominal(scenario),
+            true,
+        )
     }
 
-    fn new((arc_length, bend): (f64, f64), side: f64, scenario: &Scenario, sketched: bool) -> Self {
-        let length = scenario.robot.length;
+    fn new((arc_length, bend): (f64, f64), side: f64, scenario: &Scenario, robot: &TrueRobot, sketched: bool) -> Self {
+        let length = robot.segment().length;
         let surface = match scenario.contact.kind {
             ContactKind::Clamp => None,
             ContactKind::Plane => Some(Surface::Plane),
@@ -63,7 +68,7 @@ impl PlannedContact {
         };
         let touch = surface.map(|surface| {
             let motion = &scenario.motion;
-            let ends = [motion.theta_start, motion.theta_end].map(|theta_l| side * bend_from_theta_l(theta_l));
+            let ends = ends(motion).map(|bend| side * robot.bend(bend));
             let last = side * ends[0].max(ends[1]).max(side * bend);
             Arc::new(Touch::new(Meeting { place: arc_length / length, bend, side }, surface, last, sketched))
         });
@@ -76,7 +81,7 @@ impl PlannedContact {
         self.touch.as_deref().map(Touch::branch)
     }
 
-    /// Whether the beam holds the backbone at this commanded bend (rad).
+    /// Whether the beam holds the backbone at this true bend (rad).
     #[must_use]
     pub fn holds_at(&self, bend: f64) -> bool {
         match self.branch() {
@@ -92,6 +97,7 @@ pub struct Plan {
     scenario: Scenario,
     /// From the base up; one, for now.
     segments: Vec<Segment>,
+    truth: TrueRobot,
     /// In the order of the scenario; at most one, for now.
     contacts: Vec<PlannedContact>,
     samples: usize,
@@ -117,18 +123,41 @@ impl Plan {
         #[cfg(test)]
         tests::VALIDATED.set(tests::VALIDATED.get() + 1);
         KEYS.iter().try_for_each(|key| key.check(scenario))?;
+        check_contact(scenario)?;
+        check_truth(scenario)?;
         Ok(Self {
             segments: vec![scenario.robot.segment()],
-            contacts: resolve_contact(scenario)?.into_iter().collect(),
+            truth: TrueRobot::of(scenario),
+            contacts: Vec::new(),
             samples: steps(scenario) as usize + 1,
             scenario: scenario.clone(),
-        })
+        }
+        .with_contacts())
     }
 
-    /// The same with another seed, of which the bits above [`MAX_SEED`] do not count.
+    fn with_contacts(self) -> Self {
+        let contact = at(&self.scenario).map(|(_, _, arc_length)| {
+            let (bend, side) = meets(&self.scenario, &self.truth);
+            PlannedContact::new((arc_length, bend), side, &self.scenario, &self.truth, false)
+        });
+        Self { contacts: contact.into_iter().collect(), ..self }
+    }
+
+    /// The same with another seed, of which the bits above [`MAX_SEED`] do not count; with another true robot, where that is drawn.
     #[must_use]
     pub fn with_seed(&self, seed: u64) -> Self {
-        Self { scenario: Scenario { seed: seed & MAX_SEED, ..self.scenario.clone() }, ..self.clone() }
+        let seeded = Self { scenario: Scenario { seed: seed & MAX_SEED, ..self.scenario.clone() }, ..self.clone() };
+        if !seeded.is_drawn() {
+            return seeded;
+        }
+        // Whatever may be drawn was checked with the plan.
+        Self { truth: TrueRobot::of(&seeded.scenario), ..seeded }.with_contacts()
+    }
+
+    /// Whether the true robot, and with it everything but the commands, depends on the seed.
+    #[must_use]
+    pub fn is_drawn(&self) -> bool {
+        self.scenario.calibration.is_drawn()
     }
 
     /// Takes the shapes that another plan has found already, where its contacts are the same.
@@ -156,7 +185,7 @@ impl Plan {
         &self.scenario
     }
 
-    /// The segments, from the base up: at least one.
+    /// The segments, from the base up, as the model has them: at least one.
     #[must_use]
     pub fn segments(&self) -> &[Segment] {
         &self.segments
@@ -168,7 +197,13 @@ impl Plan {
         &self.contacts
     }
 
-    /// The segment at the base.
+    /// The robot as it truly is.
+    #[must_use]
+    pub fn true_robot(&self) -> &TrueRobot {
+        &self.truth
+    }
+
+    /// The segment at the base, as the model has it.
     #[must_use]
     pub fn segment(&self) -> &Segment {
         &self.segments[0]
@@ -212,37 +247,92 @@ pub(super) fn steps(scenario: &Scenario) -> f64 {
 /// Bends nearer to straight than this are straight when the beam's side is chosen.
 const STRAIGHT: f64 = 1e-12;
 
-fn resolve_contact(scenario: &Scenario) -> Result<Option<PlannedContact>, ScenarioError> {
-    let Contact { place, start, kind, rounding } = scenario.contact;
-    let disk = |disk: NonZeroU64| scenario.robot.disks.get(disk.get() as usize - 1).copied();
-    let (key, value, at) = match place {
-        Place::Nowhere => return Ok(None),
-        Place::Disk(number) => ("contact.disk", Value::Whole(number.get()), disk(number)),
-        Place::ArcLength(s) => ("contact.arc_length", Value::Number(s), Some(s)),
-    };
-    let Some(arc_length) = at else { return Ok(None) };
+/// Where the beam meets the backbone: the key that says so, its value, and the arc length (m); none without a beam.
+fn at(scenario: &Scenario) -> Option<(&'static str, Value, f64)> {
+    match scenario.contact.place {
+        Place::Nowhere => None,
+        Place::Disk(number) => {
+            let disk = scenario.robot.disks.get(number.get() as usize - 1).copied();
+            disk.map(|at| ("contact.disk", Value::Whole(number.get()), at))
+        }
+        Place::ArcLength(at) => Some(("contact.arc_length", Value::Number(at), at)),
+    }
+}
+
+/// The true bend (rad) at which a robot meets the beam, and on which side of it the beam holds.
+fn meets(scenario: &Scenario, robot: &TrueRobot) -> (f64, f64) {
     let motion = &scenario.motion;
-    // From a time on, the beam stands where the motion goes, be it toward straight.
-    let (bend, side) = match start {
+    match scenario.contact.start {
+        // From a time on, the beam stands where the motion goes, be it toward straight.
         Start::Time(time) => {
-            (bend_from_theta_l(motion::command(motion, time).0), side(motion.theta_start - motion.theta_end))
+            let commanded = bend_from_theta_l(motion::command(motion, time).0);
+            (robot.bend(commanded), side(motion.theta_start - motion.theta_end))
         }
         Start::Bend(bend) => (bend, side_beyond(bend, motion)),
-    };
-    let length = scenario.robot.length;
-    if kind != ContactKind::Clamp && !is_between(arc_length, length) {
+    }
+}
+
+/// Checks the contact against the robot as calibrated.
+fn check_contact(scenario: &Scenario) -> Result<(), ScenarioError> {
+    let Some((key, value, arc_length)) = at(scenario) else { return Ok(()) };
+    let robot = TrueRobot::nominal(scenario);
+    if !meets_between(scenario, &robot, arc_length) {
         let quantity = if key == "contact.disk" { Quantity::Count } else { Quantity::Length };
         let allowed =
             Allowed::Need("a place between the base and the end disk, for a beam that only touches (contact.kind)");
         return Err(Refused::error(key, quantity, value, allowed));
     }
-    // Where the beam is on the inside of the bend, it has to fit into the arc.
-    let inside = side * bend;
-    if kind == ContactKind::Cylinder && inside * rounding >= length {
-        let allowed = Allowed::Range(Limit::At(0.0), Limit::Beyond(length / inside));
-        return Err(Refused::error("contact.rounding", Quantity::Length, Value::Number(rounding), allowed));
+    if let Some(most) = room(scenario, &robot) {
+        let allowed = Allowed::Range(Limit::At(0.0), Limit::Beyond(most));
+        let rounding = Value::Number(scenario.contact.rounding);
+        return Err(Refused::error("contact.rounding", Quantity::Length, rounding, allowed));
     }
-    Ok(Some(PlannedContact::new((arc_length, bend), side, scenario, false)))
+    Ok(())
+}
+
+/// Whether a robot's backbone can meet the beam at an arc length (m): a clamp takes its ends as well.
+fn meets_between(scenario: &Scenario, robot: &TrueRobot, arc_length: f64) -> bool {
+    let length = robot.segment().length;
+    match scenario.contact.kind {
+        ContactKind::Clamp => arc_length <= length,
+        ContactKind::Plane | ContactKind::Cylinder => is_between(arc_length, length),
+    }
+}
+
+/// The rounding (m) below which a round beam on the inside of the bend fits into the arc; none where it fits.
+fn room(scenario: &Scenario, robot: &TrueRobot) -> Option<f64> {
+    let Contact { kind, rounding, .. } = scenario.contact;
+    let (bend, side) = meets(scenario, robot);
+    let (inside, length) = (side * bend, robot.segment().length);
+    (kind == ContactKind::Cylinder && inside * rounding >= length).then_some(length / inside)
+}
+
+/// Checks every true robot that a scenario may have.
+fn check_truth(scenario: &Scenario) -> Result<(), ScenarioError> {
+    let fault = |robot: &TrueRobot| {
+        let reached = ends(&scenario.motion).map(|bend| robot.bend(bend));
+        let met = at(scenario).is_none_or(|(_, _, arc_length)| {
+            meets_between(scenario, robot, arc_length) && room(scenario, robot).is_none()
+        });
+        !met || reached.into_iter().any(|bend| bend_refused(robot.segment(), bend).is_some())
+    };
+    let Some(key) = TrueRobot::refused(scenario, fault).and_then(keys::find) else { return Ok(()) };
+    let allowed = match scenario.calibration.draw {
+        Draw::Fixed => Allowed::Need(
+            "an error with which the true robot bends by less than one turn, each secondary backbone has some length left, and the \
+             contact is on the backbone and fits",
+        ),
+        Draw::Drawn => Allowed::Need(
+            "a standard deviation four of which are at most 50 % of length and bend, leave less than one turn of bend and some length of \
+             each secondary backbone, and the contact on the backbone, where it fits",
+        ),
+    };
+    Err(key.refuse(key.get(scenario).unwrap_or(Value::Number(f64::NAN)), allowed))
+}
+
+/// Commanded bends before and after the motion, rad.
+fn ends(motion: &Motion) -> [f64; 2] {
+    [motion.theta_start, motion.theta_end].map(bend_from_theta_l)
 }
 
 /// Whether a place (m) lies between the ends of a segment, so that a beam can touch it there without clamping it.

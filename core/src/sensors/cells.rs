@@ -1,9 +1,9 @@
 //! The load cells: τ_lc,i = τ_i/(1 − ε_i), plus noise (Eqs. 13, 14).
 
 use crate::model::Vec3;
+use crate::noise::{Normal, Source};
 use crate::scenario::CellErrors;
 use crate::scenario::Plan;
-use crate::sensors::noise::{Normal, Source};
 
 /// The simulated load cells.
 #[derive(Debug, Clone)]

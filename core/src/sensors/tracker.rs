@@ -1,10 +1,11 @@
 //! The tracker: a marker's position and Euler angles, refreshed, aged, disturbed, rounded and held.
 
+mod disturbance;
+
 use crate::model::orientation::{from_euler, to_euler};
 use crate::model::{Mat3, Pose, Vec3};
-use crate::scenario::Plan;
-use crate::scenario::{Mounting, Tracker};
-use crate::sensors::noise::{Normal, Source};
+use crate::scenario::{Mounting, Plan, Tracker, TrueRobot};
+use disturbance::{Coloured, Drift};
 use libm::{floor, rint, sincos};
 use std::f64::consts::{PI, TAU};
 
@@ -23,7 +24,9 @@ pub struct SimulatedTracker {
     settings: Tracker,
     /// R̃_gᵀ: `tip_from_marker`.
     tip_from_marker: Mat3,
-    noise: Normal,
+    robot: TrueRobot,
+    noise: Coloured,
+    drift: Drift,
     held: Option<(f64, Reading)>,
 }
 
@@ -36,7 +39,9 @@ impl SimulatedTracker {
         Self {
             settings: scenario.tracker.clone(),
             tip_from_marker,
-            noise: Normal::new(scenario.seed, Source::Tracker),
+            robot: *plan.true_robot(),
+            noise: Coloured::new(scenario.seed, scenario.calibration.colour),
+            drift: Drift::new(scenario.seed, &scenario.calibration),
             held: None,
         }
     }
@@ -50,24 +55,25 @@ impl SimulatedTracker {
         {
             return reading;
         }
-        let taken = (refresh / self.settings.rate).min(time) - self.settings.latency;
-        let reading = self.measure(&tip(taken.max(0.0)));
+        let taken = (refresh / self.settings.rate).min(time) - self.robot.age(self.settings.latency);
+        let reading = self.measure(refresh / self.settings.rate, tip(taken.max(0.0)));
         self.held = Some((refresh, reading));
         reading
     }
 
-    fn measure(&mut self, tip: &Pose) -> Reading {
+    /// What is read at a refresh at `time` (s) of a marker whose end disk is at `tip` in {B}.
+    fn measure(&mut self, time: f64, tip: Pose) -> Reading {
         let settings = &self.settings;
-        let noise = |noise: &mut Normal, deviation: f64| {
-            if deviation > 0.0 { deviation * noise.draw() } else { 0.0 }
+        let tip = self.robot.seen(tip);
+        let drifted = match self.drift.at(time) {
+            Some(drift) => tip.position + drift,
+            None => tip.position,
         };
-        let position = tip.position.map(|x| {
-            let disturbed = x + noise(&mut self.noise, settings.position_noise);
-            rounded(disturbed, settings.position_resolution)
-        });
+        let noise = self.noise.position(settings.position_noise);
+        let position = drifted.zip_map(&noise, |x, noise| rounded(x + noise, settings.position_resolution));
         let mut rotation = tip.rotation * self.tip_from_marker;
         if settings.orientation_noise > 0.0 {
-            rotation = from_euler(&[(); 3].map(|()| noise(&mut self.noise, settings.orientation_noise))) * rotation;
+            rotation = from_euler(&self.noise.orientation(settings.orientation_noise).into()) * rotation;
         }
         let mut angles = to_euler(&rotation).map(|angle| rounded(angle, settings.orientation_resolution));
         if let Some((_, before)) = &self.held {

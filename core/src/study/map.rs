@@ -24,7 +24,8 @@ const FORCE_STEPS: usize = 12;
 /// Part of the sharpest bend up to which forces are looked at: at the bend itself they are not defined.
 const NEARLY: f64 = 1.0 - 1e-9;
 
-/// The map of a scenario's motion, without noise. Its own contact does not matter.
+/// The map of a scenario's motion, without noise, of the robot as calibrated: `calibration` plays no part in it, nor does the scenario's
+/// own contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactMap {
     /// Arc lengths s_c of the contact, m: the rows' middles, from the base up.

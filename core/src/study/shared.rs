@@ -17,7 +17,7 @@ pub struct Shared {
 }
 
 impl Shared {
-    /// Of a plan; its seed, filter and thresholds do not matter.
+    /// Of a plan; its filter and thresholds do not matter, nor its seed unless the true robot is drawn from it.
     #[must_use]
     pub fn new(plan: &Plan) -> Self {
         let script = Script::new(plan);
@@ -56,7 +56,8 @@ impl Shared {
     }
 }
 
-/// The latest of what was shared: plans that differ in seed, filter, thresholds or the tracker's noise share one.
+/// The latest of what was shared: plans that differ in seed, filter, thresholds or the tracker's noise share one, but for the seed
+/// that draws a true robot.
 ///
 /// It keeps few, for each holds a whole run: memory does not grow with the number of plans. Two of these are always equal, since
 /// what they keep follows from the plans.
@@ -128,11 +129,15 @@ impl PartialEq for Kept {
 /// What a plan shares with others, as a scenario in which nothing else differs.
 fn key(plan: &Plan) -> Scenario {
     let mut key = plan.scenario().clone();
-    key.seed = 0;
+    if !plan.is_drawn() {
+        key.seed = 0;
+    }
     key.filter = Filter::default();
     key.detection = Thresholds::default();
     key.tracker.position_noise = 0.0;
     key.tracker.orientation_noise = 0.0;
+    key.calibration.drift = 0.0;
+    key.calibration.colour = 0.0;
     key
 }
 
@@ -158,6 +163,27 @@ mod tests {
         for (k, set) in ["contact.disk=1", "tracker.latency=0.01", "load_cells.noise=0.3"].into_iter().enumerate() {
             assert_eq!(*kept.of(&plan(&[set])), Shared::new(&plan(&[set])), "{set}");
             assert_eq!(count(), k + 2);
+        }
+    }
+
+    #[test]
+    fn repeats_with_a_drawn_robot_do_not_share() {
+        let kept = Kept::default();
+        let drawn = plan(&["calibration.draw=drawn", "calibration.bend_offset=0.01"]);
+        let scripts = [3, 4].map(|seed| {
+            let plan = drawn.with_seed(seed);
+            let shared = kept.of(&plan);
+            assert_eq!(*shared, Shared::new(&plan));
+            shared.script().clone()
+        });
+        assert_ne!(scripts[0], scripts[1]);
+        assert_eq!(*kept.of(&drawn.with_seed(3)), Shared::new(&drawn.with_seed(3)));
+        // What is not drawn, and what only the tracker sees, is shared.
+        let fixed = plan(&["calibration.bend_offset=0.01", "calibration.drift=0.001", "calibration.colour=0.5"]);
+        let count = || kept.latest.lock().expect("no panic").len();
+        for seed in [3, 4] {
+            assert_eq!(*kept.of(&fixed.with_seed(seed)), Shared::new(&fixed));
+            assert_eq!(count(), 3);
         }
     }
 

@@ -230,7 +230,16 @@ impl Experiments {
     fn step(&mut self) {
         let (truth, plan, script) = &self.plans[self.rows.len() % PRESETS.len()];
         let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
-        self.rows.push(experiment(&plan.with_seed(seed), script, truth));
+        let plan = plan.with_seed(seed);
+        let row = if plan.is_drawn() {
+            // Each repeat is of another robot.
+            let script = Script::new(&plan);
+            let contact_time = script.contact_time().unwrap_or(f64::NAN);
+            experiment(&plan, &script, &Met { contact_time, ..*truth })
+        } else {
+            experiment(&plan, script, truth)
+        };
+        self.rows.push(row);
     }
 
     /// The same disks without an experiment.

@@ -3,7 +3,7 @@
 use super::course::Moment;
 use super::filter::Response;
 use crate::model::contact::{clamped_tip, free_tip};
-use crate::sensors::noise::{Normal, Source};
+use crate::noise::{Normal, Source};
 use libm::sqrt;
 use nalgebra::Matrix2;
 

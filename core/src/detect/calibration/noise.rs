@@ -131,7 +131,7 @@ fn exceeded(value: f64, degrees: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::detect::calibration::course::planar;
-    use crate::sensors::noise::{Normal, Source};
+    use crate::noise::{Normal, Source};
 
     #[test]
     fn chi_squares_are_exceeded_as_tables_have_it() {

@@ -1,8 +1,7 @@
 //! Orientations of logs as azimuth, elevation and roll.
 
-use crate::model::orientation::{Quaternion, to_euler};
-use crate::model::special::Angle;
-use crate::model::{Mat3, Vec3};
+use crate::model::Mat3;
+use crate::model::orientation::{Quaternion, from_vector, to_euler};
 use libm::sqrt;
 
 /// An orientation of the marker as a log holds it.
@@ -60,17 +59,10 @@ pub fn from_quaternion(&[w, x, y, z]: &Quaternion) -> Mat3 {
     )
 }
 
-/// The rotation about `vector` by its length in rad (Rodrigues).
-#[must_use]
-pub fn from_vector(vector: &Vec3) -> Mat3 {
-    let angle = Angle::new(vector.norm());
-    let hat = vector.cross_matrix();
-    Mat3::identity() + hat * angle.sinc() + hat * hat * angle.versinc()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::Vec3;
     use crate::model::orientation::{from_euler, quaternion_from_euler};
 
     #[test]

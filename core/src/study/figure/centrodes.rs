@@ -102,7 +102,7 @@ impl Side {
 
     fn backbone(&self, configuration: &Configuration, shape: Shape) -> Vec<[f64; 2]> {
         let shape = shape.detailed();
-        let length = self.plan.segment().length;
+        let length = self.plan.true_robot().segment().length;
         let at = |k| in_plane(configuration, &shape.pose(length * (k as f64 / (POINTS - 1) as f64)).position);
         (0..POINTS).map(at).collect()
     }

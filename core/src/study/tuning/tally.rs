@@ -38,7 +38,7 @@ pub struct Count {
 pub struct Tally {
     /// Runs counted.
     pub runs: u64,
-    /// Truth: the first sample in contact; none without contact or before the first run.
+    /// Truth: the first sample in contact, the earliest of all runs; none without contact or before the first run.
     pub contact: Option<u32>,
     /// By rule and level; empty before the first run, so that what is not begun takes no memory.
     pub counts: Vec<Vec<Count>>,
@@ -57,7 +57,7 @@ impl Tally {
     /// Counts one run in.
     pub fn add(&mut self, firsts: &Firsts, clock: &Clock) {
         self.runs += 1;
-        self.contact = firsts.contact;
+        self.contact = self.contact.into_iter().chain(firsts.contact).min();
         self.counts.resize_with(firsts.alarms.len(), Vec::new);
         for (counts, alarms) in self.counts.iter_mut().zip(&firsts.alarms) {
             counts.resize_with(alarms.len(), Count::default);

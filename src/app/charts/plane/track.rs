@@ -116,14 +116,18 @@ impl<'a> Track<'a> {
     }
 
     fn backbone(&self, shape: &Shape) -> Vec<Flat> {
-        let length = self.run.plan.segment().length;
+        let length = match shape {
+            // The model's, whose length may be another.
+            Shape::Free(arc) => arc.length,
+            Shape::Held(_) | Shape::Touched(_) => self.run.segment().length,
+        };
         (0..=POINTS).map(|k| self.place(shape, length * k as f64 / POINTS as f64)).collect()
     }
 
     /// The robot in a shape.
     #[must_use]
     pub fn robot(&self, shape: &Shape) -> Robot {
-        let segment = self.run.plan.segment();
+        let segment = self.run.segment();
         let (length, radius) = (segment.length, segment.pitch_radius * MM);
         let side = |sign: f64| {
             (0..=POINTS)
@@ -138,14 +142,14 @@ impl<'a> Track<'a> {
 
     /// Ends of the base, the spacer disks and the end disk, mm.
     fn disks(&self, shape: &Shape) -> Vec<[Flat; 2]> {
-        let segment = self.run.plan.segment();
-        let spacers = self.run.plan.scenario().robot.disks.iter().copied();
+        let length = self.run.segment().length;
+        let spacers = self.run.plan.scenario().robot.disks.iter().map(|&disk| disk.min(length));
         let of = |s: f64| {
             let pose = shape.pose(s);
             let (at, across) = (self.projection.point(&pose.position), self.projection.across(&pose));
             [-1.0, 1.0].map(|side| shifted(at, across, side * f64::from(self.sizes.disk) * MM))
         };
-        std::iter::once(0.0).chain(spacers).chain([segment.length]).map(of).collect()
+        std::iter::once(0.0).chain(spacers).chain([length]).map(of).collect()
     }
 
     /// The beam, piece by piece, when there is one: on the side that the segment bends to.

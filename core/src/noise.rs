@@ -4,7 +4,7 @@ use libm::{log, sqrt};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// Which sensor a stream of noise belongs to: silencing one leaves the others' draws alone.
+/// What a stream of noise belongs to: silencing one leaves the others' draws alone.
 #[derive(Debug, Clone, Copy)]
 #[repr(u64)]
 pub enum Source {
@@ -14,6 +14,10 @@ pub enum Source {
     LoadCells = 2,
     /// The load cells' relative errors.
     CellErrors = 3,
+    /// The errors of calibration.
+    Calibration = 4,
+    /// The tracker's drift.
+    Drift = 5,
     /// Draws of a bound, which belong to no sensor.
     Bound = 64,
 }
