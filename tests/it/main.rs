@@ -8,6 +8,7 @@
 
 #[cfg(feature = "cli")]
 mod cli;
+mod detectors;
 #[cfg(feature = "cli")]
 mod documented;
 #[cfg(feature = "cli")]
