@@ -153,6 +153,8 @@ pub enum Role {
     Sensor,
     /// What the load cells say.
     Force,
+    /// A log likelihood ratio.
+    Likelihood,
     /// A threshold or a bound, or all methods together.
     Bound,
     /// The robot itself.

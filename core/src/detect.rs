@@ -1,6 +1,6 @@
 //! What is concluded from a recording: filter, detectors, events, and the place of the contact.
 //!
-//! Reading order: [`filter`], [`evidence`] (what is computed at each instant before any threshold), [`statistic`] (what each detector
+//! Reading order: [`filter`], [`nominal`] (what the tracker would read at the command), [`evidence`] (what is computed at each instant before any threshold), [`statistic`] (what each detector
 //! holds against its threshold, and whether it counts), [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it).
 //!
 //! Nothing here knows whether a recording was simulated.
@@ -10,6 +10,7 @@ pub mod calibration;
 pub mod evidence;
 pub mod filter;
 pub mod judge;
+pub mod nominal;
 pub mod outlook;
 pub mod statistic;
 

@@ -7,7 +7,7 @@ pub use replay::Replay;
 pub use simulation::Simulation;
 
 use crate::detect::filter::FilteredMotion;
-use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Settings, judge};
+use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Method, Settings, judge};
 use crate::model::{Segment, Vec3};
 use crate::plant::{Happening, PlantEvent, Shape};
 use crate::record::{Entry, Recording, Truth};
@@ -35,7 +35,7 @@ pub struct Sample {
     pub motion: FilteredMotion,
     /// Load cell readings τ_lc, N. NaN where the statics are not defined.
     pub tau_lc: Vec3,
-    /// What the two methods make of it.
+    /// What the methods make of it.
     pub judgement: Judgement,
 }
 
@@ -74,7 +74,7 @@ macro_rules! channels {
     };
 }
 
-/// Every channel of a run, in the order of the CSV columns.
+/// Every channel of a run that is there whichever detectors judge, in the order of the CSV columns.
 pub const CHANNELS: &[Channel] = channels! {
     "time", "s", x => x.time;
     "theta_l", "rad", x => x.theta_l;
@@ -112,6 +112,19 @@ pub const CHANNELS: &[Channel] = channels! {
     "bound_shape", "N·m", x => x.judgement.shape_bound;
 };
 
+/// Channels of the detectors that are not the paper's, each with its detector: a CSV file has those of the detectors that judge, behind
+/// the others. No fingerprint covers them.
+pub const EXTRA: &[(Method, Channel)] = &[
+    extra(Method::FcdConsistent, "consistent_deviation", "m", |x| x.judgement.consistent),
+    extra(Method::FcdVelocity, "velocity_deviation", "m/s", |x| x.judgement.velocity),
+    extra(Method::Cusum, "cusum", "1", |x| x.judgement.cusum),
+    extra(Method::Glr, "glr", "1", |x| x.judgement.glr),
+];
+
+const fn extra(method: Method, name: &'static str, unit: &'static str, value: fn(&Sample) -> f64) -> (Method, Channel) {
+    (method, Channel { name, unit, value })
+}
+
 /// What changed when a run was brought up to date, the first of the stages that were made anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Anew {
@@ -119,7 +132,7 @@ pub enum Anew {
     Nothing,
     /// Crossings and events: a threshold has moved.
     Events,
-    /// What the detectors compute, too: the filter has changed.
+    /// What the detectors compute, too: the filter has changed, or a detector that costs something has been switched on.
     Evidence,
     /// Everything.
     Recording,
@@ -174,7 +187,7 @@ impl Run {
             *self = Self::new(plan);
             return Anew::Recording;
         }
-        let anew = if settings.filter == before.filter { Anew::Events } else { Anew::Evidence };
+        let anew = if settings.see_as(before) { Anew::Events } else { Anew::Evidence };
         if anew == Anew::Evidence {
             self.judged = judge(&self.recording, &settings);
         } else {
@@ -265,7 +278,7 @@ impl Run {
         &self.judged.crossings
     }
 
-    /// Events of all detectors, in the order in which they were raised.
+    /// Events of the detectors that judge, in the order in which they were raised.
     #[must_use]
     pub fn events(&self) -> &[Event] {
         &self.judged.events
@@ -391,11 +404,14 @@ mod tests {
         let mut run = simulate(&bench).expect("valid");
         let mut scenario = bench.clone();
         type Change = fn(&mut Scenario);
-        let changes: [(Anew, Change); 8] = [
+        let changes: [(Anew, Change); 11] = [
             (Anew::Nothing, |_| ()),
             (Anew::Events, |s| s.detection.xi2 = crate::scenario::Threshold::On(0.005)),
             (Anew::Events, |s| s.detection.min_speed = 0.3),
             (Anew::Evidence, |s| s.filter.length = 123),
+            (Anew::Events, |s| s.detection.detectors.set(Method::FcdVelocity, true)),
+            (Anew::Evidence, |s| s.detection.detectors.set(Method::FcdConsistent, true)),
+            (Anew::Events, |s| s.detection.detectors.set(Method::Fcd, false)),
             (Anew::Recording, |s| s.load_cells.epsilon_tau = 0.05),
             (Anew::Recording, |s| s.seed = 5),
             (Anew::Recording, |s| s.calibration.bend_offset = 0.02),
@@ -426,10 +442,10 @@ mod tests {
     fn noise_around_a_threshold_is_one_event() {
         let run = find("bench").and_then(|preset| preset.scenario()).and_then(|s| simulate(&s)).expect("bench");
         let of = |detector| run.events().iter().filter(move |event| event.detector == detector);
-        for &detector in crate::detect::Method::ALL {
+        for &detector in Method::PAPER {
             assert_eq!(of(detector).count(), 1, "{:?}", run.events());
         }
-        let centrode = of(crate::detect::Method::Fcd).next().expect("one");
+        let centrode = of(Method::Fcd).next().expect("one");
         assert!((centrode.raised - 6.26).abs() < 0.01, "{centrode:?}");
         assert!(run.crossings().len() > 10);
         assert_eq!(run.detection().map(|detection| detection.time), Some(centrode.raised));

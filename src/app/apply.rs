@@ -50,12 +50,8 @@ impl App {
                 Command::Take { rule, threshold, length } => self.take(rule, threshold, length),
                 Command::HoldStudy(held) => self.tuner.hold(held),
                 Command::ResetAll => self.load(self.base.clone()),
-                Command::SetXi1(xi1) => self.change(&["detection.xi1"], |s| {
-                    s.detection.xi1 = xi1;
-                    Ok(())
-                }),
-                Command::SetXi2(xi2) => self.change(&["detection.xi2"], |s| {
-                    s.detection.xi2 = xi2;
+                Command::SetThreshold(method, to) => self.change(&[method.threshold_key()], |s| {
+                    *s.detection.of_mut(method) = to;
                     Ok(())
                 }),
                 Command::SetArmedFrom(time) => self.change(&["detection.armed_from"], |s| {
@@ -72,7 +68,10 @@ impl App {
                 Command::Enter(control, text) => self.change(&[control.key], |s| control.enter(s, &text)),
                 Command::Switch(control, on) => self.switch(control, on),
                 Command::Pick(choice, option) => self.change(&[choice.of.path], |s| {
-                    choice.of.choose(s, option);
+                    match choice.of.is_words() {
+                        true => choice.of.hold(s, option, !choice.of.holds(s, option)),
+                        false => choice.of.choose(s, option),
+                    }
                     Ok(())
                 }),
                 Command::Reset(control) => self.restore(control.key, |from, to| control.copy(from, to)),

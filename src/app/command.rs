@@ -5,8 +5,8 @@ use crate::app::log::form::Edit;
 use crate::app::saving::{Format, Subject};
 use crate::app::stages::stage::Stage;
 use crate::app::state::{Tab, Tuning};
-use centrode_core::scenario::Threshold;
 use centrode_core::scenario::preset::Preset;
+use centrode_core::scenario::{Method, Threshold};
 use centrode_core::study::tuning::watch::Rule;
 
 /// What leaves the page or comes in.
@@ -73,10 +73,8 @@ pub enum Command {
     ToggleFrozen,
     /// Choose a preset and load its scenario.
     Choose(&'static Preset),
-    /// Set ξ1, N·m.
-    SetXi1(Threshold),
-    /// Set ξ2, m.
-    SetXi2(Threshold),
+    /// Set the threshold of a detector, SI.
+    SetThreshold(Method, Threshold),
     /// Set when alarms are armed, s.
     SetArmedFrom(f64),
     /// Set a control, in the unit it shows.

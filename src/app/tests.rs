@@ -1,7 +1,7 @@
 //! What commands come to, without anything drawn.
 
 use super::*;
-use centrode_core::scenario::Threshold;
+use centrode_core::scenario::{Method, Threshold};
 use centrode_core::study::tuning::watch::Rule;
 
 fn page() -> (egui::Context, App) {
@@ -48,7 +48,7 @@ fn a_threshold_that_is_switched_off_is_remembered_in_one_place() {
     let (ctx, mut app) = page();
     let xi2 = controls::table::control("detection.xi2").expect("a row");
     // Set and switched off where no plot has been drawn.
-    app.apply(&ctx, &mut vec![Command::SetXi2(Threshold::On(0.0045)), Command::Switch(xi2, false)]);
+    app.apply(&ctx, &mut vec![Command::SetThreshold(Method::Fcd, Threshold::On(0.0045)), Command::Switch(xi2, false)]);
     assert_eq!(app.state.scenario.detection.xi2, Threshold::OFF);
     app.apply(&ctx, &mut vec![Command::Fold("Motion")]);
     let base = app.base.clone();

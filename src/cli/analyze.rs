@@ -12,7 +12,7 @@ use centrode_core::record::log::{
 };
 use centrode_core::run::Replay;
 use centrode_core::scenario::link::Page;
-use centrode_core::scenario::{Scenario, Threshold};
+use centrode_core::scenario::{Detectors, Scenario};
 use centrode_core::study::about::About;
 use centrode_core::study::export::signed;
 use centrode_core::study::report::Tally;
@@ -33,7 +33,7 @@ pub struct AnalyzeArgs {
     commands: Option<PathBuf>,
     #[command(flatten)]
     scenario: Nominal,
-    /// Judge with these detectors alone: fcd, jfd.
+    /// Judge with these detectors alone, in place of those of detection.detectors: fcd, jfd, fcd-consistent, fcd-velocity, cusum, glr.
     #[arg(long, value_name = "NAMES", value_delimiter = ',')]
     detectors: Vec<String>,
     /// Say what a column is, as in x="Tx (mm)" or time=#1, with a unit of its own before the =; may be repeated.
@@ -103,13 +103,8 @@ impl AnalyzeArgs {
     /// Reads, judges and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let (mut scenario, rate) = self.scenario.resolved()?;
-        let detectors = self.detectors()?;
-        for (detector, threshold) in
-            [(Method::Fcd, &mut scenario.detection.xi2), (Method::Jfd, &mut scenario.detection.xi1)]
-        {
-            if !detectors.contains(&detector) {
-                *threshold = Threshold::OFF;
-            }
+        if !self.detectors.is_empty() {
+            scenario.detection.detectors = self.detectors()?;
         }
         let drawing = self.figure.as_deref().map(|path| Drawing::of("--figure", path)).transpose()?;
         let frame = match &self.frame {
@@ -134,10 +129,14 @@ impl AnalyzeArgs {
         }
         let plan = &assembled.plan;
         // A log does not know what was true.
-        let mut csv = self.csv.as_deref().map(|path| Table::create(path, false)).transpose()?;
+        let mut csv = self
+            .csv
+            .as_deref()
+            .map(|path| Table::create(path, false, plan.scenario().detection.detectors))
+            .transpose()?;
         let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
         let entries = &assembled.recording.entries;
-        let mut timeline = figure.is_some().then(|| Timeline::new(plan.scenario(), &detectors, entries.len()));
+        let mut timeline = figure.is_some().then(|| Timeline::new(plan.scenario(), entries.len()));
         let mut replay = Replay::new(entries, &Settings::of(plan));
         let mut tally = Tally::new(self.json);
         while let Some(sample) = replay.next() {
@@ -163,18 +162,14 @@ impl AnalyzeArgs {
         print(out, &report, self.json)
     }
 
-    fn detectors(&self) -> Result<Vec<Method>, Failure> {
-        if self.detectors.is_empty() {
-            return Ok(Method::ALL.into());
-        }
+    fn detectors(&self) -> Result<Detectors, Failure> {
         let of = |name: &String| {
             Method::ALL.iter().copied().find(|method| method.key() == name).ok_or_else(|| {
-                let known: Vec<_> = Method::ALL.iter().map(|method| method.key()).collect();
-                let known = known.join(", ");
+                let known = Method::KEYS.join(", ");
                 Failure::Input(format!("--detectors: there is no detector called {name:?}; known are: {known}"))
             })
         };
-        self.detectors.iter().map(of).collect()
+        Ok(Detectors::of(&self.detectors.iter().map(of).collect::<Result<Vec<_>, _>>()?))
     }
 
     /// The log with its commands, and where they come from when that was said.

@@ -2,6 +2,7 @@
 
 use super::interrupt::Part;
 use centrode_core::run::Sample;
+use centrode_core::scenario::Detectors;
 use centrode_core::study::channels;
 use serde::Serialize;
 use std::fs::{self, File};
@@ -85,19 +86,21 @@ pub struct Table {
     row: String,
     /// Whether the truth is known.
     truth: bool,
+    detectors: Detectors,
 }
 
 impl Table {
     /// Opens the file and writes the header.
-    pub fn create(path: &Path, truth: bool) -> Result<Self, Failure> {
-        let mut table = Self { file: NewFile::create(path)?, row: channels::header(), truth };
+    pub fn create(path: &Path, truth: bool, detectors: Detectors) -> Result<Self, Failure> {
+        let row = channels::header(detectors);
+        let mut table = Self { file: NewFile::create(path)?, row, truth, detectors };
         table.flush()?;
         Ok(table)
     }
 
     /// Writes the row of a sample.
     pub fn write(&mut self, sample: &Sample) -> Result<(), Failure> {
-        channels::row(&mut self.row, sample, self.truth);
+        channels::row(&mut self.row, sample, self.truth, self.detectors);
         self.flush()
     }
 

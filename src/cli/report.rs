@@ -1,9 +1,10 @@
 //! What a run or a log comes to, printed.
 
 use super::output::{Failure, json};
-use centrode_core::detect::{Detection, Event, Method};
+use centrode_core::detect::{Detection, Event};
 use centrode_core::plant::{Happening, PlantEvent};
 use centrode_core::study::about::About;
+use centrode_core::study::course::{Measure, measure};
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
 use std::io::Write;
 
@@ -19,7 +20,7 @@ pub fn print(out: &mut impl Write, report: &Report, as_json: bool) -> Result<(),
 pub fn too_many(TooMany { time }: TooMany) -> Failure {
     Failure::Input(format!(
         "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {time} s there are more: raise \
-         detection.xi2 or detection.xi1, or leave --json away"
+         the thresholds, or leave --json away"
     ))
 }
 
@@ -77,20 +78,21 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     if report.events.is_empty() {
         return writeln!(out, "\nno threshold was crossed");
     }
-    writeln!(out, "\ndetector   raised [s]  cleared [s]    θL [°]          value      threshold")?;
-    for event in report.events.iter().take(LISTED) {
+    let listed = || report.events.iter().take(LISTED);
+    // Wide enough for the heading, and for every name.
+    let width = listed().map(|event| event.detector.key().len()).fold("detector".len(), usize::max);
+    let head = "  raised [s]  cleared [s]    θL [°]          value      threshold";
+    writeln!(out, "\n{:<width$} {head}", "detector")?;
+    for event in listed() {
         let Event { detector, raised, cleared, value, threshold, theta_l, .. } = event;
-        let unit = match detector {
-            Method::Fcd => "mm",
-            Method::Jfd => "mN·m",
-        };
+        let Measure { unit, scale, .. } = measure(*detector);
         let cleared = cleared.map_or("never".into(), |time| format!("{time:.3}"));
         let (name, theta_l) = (detector.key(), degrees(*theta_l));
         writeln!(
             out,
-            "{name:<8} {raised:>12.3} {cleared:>12} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
-            mm(*value),
-            mm(*threshold)
+            "{name:<width$} {raised:>12.3} {cleared:>12} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
+            value * scale,
+            threshold * scale
         )?;
     }
     if report.events.len() > LISTED {

@@ -8,7 +8,6 @@ use super::draw::{self, Format};
 use super::logfile::LogFile;
 use super::output::{Failure, NewFile, Table};
 use super::report::{Report, print, too_many};
-use centrode_core::detect::Method;
 use centrode_core::run::Simulation;
 use centrode_core::scenario::Plan;
 use centrode_core::scenario::link::Page;
@@ -44,12 +43,13 @@ impl RunArgs {
         let scenario = self.scenario.scenario()?;
         let plan = Plan::new(&scenario).map_err(|error| Failure::Input(error.to_string()))?;
         let format = self.figure.as_deref().map(|path| Format::of("--figure", path)).transpose()?;
-        let mut csv = self.csv.as_deref().map(|path| Table::create(path, true)).transpose()?;
+        let mut csv =
+            self.csv.as_deref().map(|path| Table::create(path, true, scenario.detection.detectors)).transpose()?;
         let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
         let mut log = self.log.as_deref().map(|path| LogFile::create(path, &plan)).transpose()?;
         let mut simulation = Simulation::new(&plan);
         let mut tally = Tally::new(self.json);
-        let mut timeline = figure.is_some().then(|| Timeline::new(&scenario, Method::ALL, plan.samples()));
+        let mut timeline = figure.is_some().then(|| Timeline::new(&scenario, plan.samples()));
         while let Some(sample) = simulation.next() {
             tally.add(&sample, &simulation.take_crossings(), &scenario.detection).map_err(too_many)?;
             if let Some(timeline) = &mut timeline {

@@ -19,6 +19,8 @@ pub struct Palette {
     /// What the load cells say, and what loads them: Okabe and Ito's reddish purple, darker on white so that a thin line
     /// can be read.
     pub force: Color,
+    /// A log likelihood ratio: Okabe and Ito's sky blue, darker on white so that a thin line can be read.
+    pub likelihood: Color,
     /// A detection.
     pub detection: Color,
     /// What a person can touch, and what he chose: no signal has it.
@@ -55,6 +57,7 @@ impl Palette {
         constrained: Color::hex(0xE69F00),
         sensor: Color::hex(0x009E73),
         force: Color::hex(0xA94A82),
+        likelihood: Color::hex(0x2E8FC0),
         detection: Color::hex(0xD55E00),
         choice: Color::hex(0x5A47D1),
         steel: Color::hex(0xD5DBE2),
@@ -77,6 +80,7 @@ impl Palette {
         constrained: Color::hex(0xF0B03A),
         sensor: Color::hex(0x2BC495),
         force: Color::hex(0xE295C1),
+        likelihood: Color::hex(0x7CCBF2),
         detection: Color::hex(0xFF7F3A),
         choice: Color::hex(0xA394FF),
         steel: Color::hex(0xD3DAE2),
@@ -109,7 +113,7 @@ mod tests {
                 assert!(palette.ink.contrast(background) > 12.0);
                 assert!(palette.ink_dim.contrast(background) > 4.0);
                 // Graphics, not text: WCAG asks for 3; amber on white cannot reach it and is told by its form and edge.
-                for signal in [palette.model, palette.sensor, palette.force, palette.detection] {
+                for signal in [palette.model, palette.sensor, palette.force, palette.likelihood, palette.detection] {
                     assert!(signal.contrast(background) > 2.9, "{signal:?}");
                 }
                 assert!(palette.constrained.contrast(background) > 1.9);

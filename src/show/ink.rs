@@ -26,6 +26,7 @@ fn of_role(role: Role, palette: &Palette, dark: bool) -> Color {
         Role::Model => palette.model,
         Role::Constrained => palette.constrained,
         Role::Sensor => palette.sensor,
+        Role::Likelihood => palette.likelihood,
         Role::Force => palette.force,
         Role::Bound => palette.ink,
         Role::Robot | Role::Aside => palette.ink_dim,

@@ -6,7 +6,7 @@ use super::scene_vector;
 use super::track::{self, Spot, Trace};
 use crate::scene::palette::Palette;
 use crate::scene::{Color, Label, Line, Marker, Scene, Shape};
-use centrode_core::detect::Standing;
+use centrode_core::detect::{Method, Standing};
 use centrode_core::record::Truth;
 use centrode_core::run::Run;
 use glam::{Vec2, Vec3};
@@ -83,7 +83,8 @@ impl Signs<'_> {
         let along = scene_vector(&sample.motion.twist.angular).normalize_or_zero() * half;
         self.axis(scene, sensor, along, palette.sensor.alpha(strength));
         if armed {
-            let over = self.run.plan.scenario().detection.xi2.value().is_some_and(|xi2| deviation > xi2);
+            let settings = &self.run.plan.scenario().detection;
+            let over = settings.judges(Method::Fcd) && settings.xi2.value().is_some_and(|xi2| deviation > xi2);
             let color = if over { palette.detection } else { palette.ink };
             for (width, color) in [(6.0, palette.halo.alpha(0.9)), (3.0, color)] {
                 scene.lines.push(Line::new(vec![model, sensor], width, color).through(0.85).lifted(self.lift));

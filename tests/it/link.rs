@@ -221,6 +221,9 @@ fn scenario() -> impl Strategy<Value = Scenario> {
                 _ => key.usual(&scenario),
             };
             let value = low + share * (high - low);
+            for place in 0..key.any_of().len() {
+                key.hold(&mut next, place, (share * 64.0) as usize >> place & 1 == 1);
+            }
             match (key.words().len(), key.is_list(), key.has_off() && share < 0.2) {
                 (0, false, false) => key.set_number(&mut next, value),
                 (0, true, _) => key.set_part(&mut next, (share * 3.0) as usize, value),

@@ -10,6 +10,7 @@ mod calibration;
 mod calibration_filter;
 #[cfg(feature = "cli")]
 mod cli;
+mod detectors;
 #[cfg(feature = "cli")]
 mod documented;
 #[cfg(feature = "cli")]

@@ -15,9 +15,9 @@ pub struct Crossing {
     pub time: f64,
     /// θL commanded then, rad.
     pub theta_l: f64,
-    /// The value: ‖c_m − c_s‖ in m, or Θ in N·m.
+    /// The value, SI, in the unit of the method's [`Method::quantity`].
     pub value: f64,
-    /// The threshold: ξ2 in m, or ξ1 in N·m.
+    /// The threshold, likewise.
     pub threshold: f64,
 }
 
@@ -33,9 +33,9 @@ pub struct Event {
     pub raised: f64,
     /// When it was cleared, s; none while it stands at the end.
     pub cleared: Option<f64>,
-    /// The value that raised it: ‖c_m − c_s‖ in m, or Θ in N·m.
+    /// The value that raised it, SI, in the unit of the detector's [`Method::quantity`].
     pub value: f64,
-    /// The threshold then: ξ2 in m, or ξ1 in N·m.
+    /// The threshold then, likewise.
     pub threshold: f64,
     /// θL commanded then, rad.
     pub theta_l: f64,
@@ -45,7 +45,7 @@ pub struct Event {
     pub detection: Option<Detection>,
 }
 
-/// The first alarm of the centrode, with the place that Eq. 24 gives it.
+/// An alarm of the centrode, with the place that Eq. 24 gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Detection {
     /// When, s.
@@ -59,10 +59,10 @@ pub struct Detection {
 }
 
 impl Detection {
-    /// The first of some events that places its contact.
+    /// Of the first of some events of [`Method::Fcd`] that places its contact: what the paper detects.
     #[must_use]
     pub fn first(events: &[Event]) -> Option<Self> {
-        events.iter().find_map(|event| event.detection)
+        events.iter().filter(|event| event.detector == Method::Fcd).find_map(|event| event.detection)
     }
 }
 
@@ -77,7 +77,7 @@ struct Lamp {
     low_since: Option<f64>,
 }
 
-/// All detectors, one instant after the other. What it keeps grows with the events, and with the crossings unless they are taken.
+/// The detectors that judge, one instant after the other. What it keeps grows with the events, and with the crossings unless they are taken.
 #[derive(Debug, Clone)]
 pub struct Alarms {
     settings: Settings,
@@ -87,13 +87,13 @@ pub struct Alarms {
 }
 
 impl Alarms {
-    /// Before the first instant, with every detector.
+    /// Before the first instant.
     #[must_use]
     pub fn new(settings: &Settings) -> Self {
         let lamp = |detector| Lamp { detector, above: false, standing: None, low_since: None };
         Self {
             settings: settings.clone(),
-            lamps: Method::ALL.iter().copied().map(lamp).collect(),
+            lamps: settings.thresholds.detectors.iter().map(lamp).collect(),
             crossings: Vec::new(),
             events: Vec::new(),
         }
@@ -119,7 +119,7 @@ impl Alarms {
                 crossings.push(Crossing { method, time, theta_l, value, threshold });
             }
             let detect = || {
-                let sensor = (method == Method::Fcd).then_some(&judgement.sensor_centrode)?;
+                let sensor = method.places().then_some(&judgement.sensor_centrode)?;
                 let Location { arc_length, distance } =
                     locate(settings.assumption, settings.segment.length, *configuration, Rate::BENDING, sensor)?;
                 Some(Detection { time, theta_l, location: arc_length, distance })
@@ -187,16 +187,8 @@ mod tests {
         let settings = Settings::of(&Plan::new(&scenario).expect("valid"));
         let mut alarms = Alarms::new(&settings);
         for (k, &deviation) in deviations.iter().enumerate() {
-            let judgement = Judgement {
-                model_centrode: Vec3::zeros(),
-                sensor_centrode: Vec3::new(0.001, 0.0, 0.01),
-                deviation,
-                speed: 1.0,
-                residual: 0.0,
-                common_bound: 0.0,
-                independent_bound: 0.0,
-                shape_bound: 0.0,
-            };
+            let sensor_centrode = Vec3::new(0.001, 0.0, 0.01);
+            let judgement = Judgement { sensor_centrode, deviation, speed: 1.0, ..Judgement::UNDEFINED };
             alarms.look(k as f64 * 0.01, &Configuration::new(0.5, 0.0), &judgement);
         }
         alarms.finish().1

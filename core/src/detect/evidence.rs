@@ -1,16 +1,19 @@
-//! What both methods compute at each instant, before any threshold: filtered motion, centrodes, joint forces (Eqs. 12, 16–18).
+//! What the methods compute at each instant, before any threshold: filtered motion, centrodes, joint forces (Eqs. 12, 16–18), and what
+//! is computed of each reading of the tracker.
 
 use super::filter::{FilteredMotion, PoseFilter};
 use super::judge::Settings;
+use super::nominal::{Expected, Nominal};
 use crate::model::centrode::centrode;
 use crate::model::{Configuration, Covector, Rate, Segment, Vec3};
 use crate::record::Entry;
+use crate::scenario::Method;
 use crate::sensors::tracker::Reading;
 
 /// Added to ε_τ where the bound is a threshold, so that the last bits of Θ raise no alarm at k = 1 or without errors.
 const ROUNDING: f64 = 1e-12;
 
-/// What both methods make of one instant. A value that is not defined is NaN, never 0.
+/// What the methods make of one instant. A value that is not defined is NaN, never 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Judgement {
     /// The model's centrode c_m, m (Eq. 17); its limit while the robot rests.
@@ -29,6 +32,48 @@ pub struct Judgement {
     pub independent_bound: f64,
     /// ε_c(θL) of the free model at the commanded shape, N·m: what ξ1 follows when it follows the shape.
     pub shape_bound: f64,
+    /// ‖c_m − c_s‖ with the centrode of the commanded pose that is sampled, delayed and averaged as the tracker's readings are, m;
+    /// not defined while ω_s = 0, nor where its detector is switched off.
+    pub consistent: f64,
+    /// ‖ω_s‖·‖c_m − c_s‖, m/s; 0 while ω_s = 0.
+    pub velocity: f64,
+    /// The cumulative sum of the log likelihood ratio of a contact, natural logarithm, 0 or more; not defined where its detector is
+    /// switched off.
+    pub cusum: f64,
+    /// The largest log likelihood ratio of a contact, likewise.
+    pub glr: f64,
+}
+
+impl Judgement {
+    /// Where nothing is known.
+    pub const UNDEFINED: Self = Self {
+        model_centrode: UNDEFINED,
+        sensor_centrode: UNDEFINED,
+        deviation: f64::NAN,
+        speed: f64::NAN,
+        residual: f64::NAN,
+        common_bound: f64::NAN,
+        independent_bound: f64::NAN,
+        shape_bound: f64::NAN,
+        consistent: f64::NAN,
+        velocity: f64::NAN,
+        cusum: f64::NAN,
+        glr: f64::NAN,
+    };
+}
+
+/// What is computed once of each reading of the tracker, and holds until the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Held {
+    /// [`Judgement::cusum`].
+    pub cusum: f64,
+    /// [`Judgement::glr`].
+    pub glr: f64,
+}
+
+impl Held {
+    /// Before the first reading.
+    pub const UNDEFINED: Self = Self { cusum: f64::NAN, glr: f64::NAN };
 }
 
 /// What is known of one instant without a threshold.
@@ -79,11 +124,9 @@ pub fn deviation(model_centrode: &Vec3, motion: &FilteredMotion) -> (Vec3, f64) 
     (sensor_centrode, (model_centrode - sensor_centrode).norm())
 }
 
-/// Entries in, evidence out: it keeps one filter length of readings.
+/// A moving average that begins anew after a gap.
 #[derive(Debug, Clone)]
-pub struct Observer {
-    segment: Segment,
-    epsilon_tau: f64,
+struct Averaged {
     filter: PoseFilter,
     /// The filter before its first reading.
     empty: PoseFilter,
@@ -92,19 +135,10 @@ pub struct Observer {
     missing: u64,
 }
 
-impl Observer {
-    /// Before the first entry.
-    #[must_use]
-    pub fn new(settings: &Settings) -> Self {
+impl Averaged {
+    fn new(settings: &Settings) -> Self {
         let filter = PoseFilter::new(&settings.filter, settings.loop_rate);
-        Self {
-            segment: settings.segment,
-            epsilon_tau: settings.epsilon_tau,
-            empty: filter.clone(),
-            filter,
-            length: settings.filter.length,
-            missing: 0,
-        }
+        Self { empty: filter.clone(), filter, length: settings.filter.length, missing: 0 }
     }
 
     /// The motion as of the next reading. After a gap the average begins anew, and nothing is known until it is whole again: noise
@@ -121,24 +155,74 @@ impl Observer {
         self.missing -= 1;
         FilteredMotion::UNDEFINED
     }
+}
+
+/// Entries in, evidence out: it keeps one filter length of readings.
+#[derive(Debug, Clone)]
+pub struct Observer {
+    segment: Segment,
+    epsilon_tau: f64,
+    sensor: Averaged,
+    /// What the tracker would read at the command, where a detector that judges needs it.
+    nominal: Option<Nominal>,
+    /// Its last reading, and the average over them, where the detector judges that compares with it.
+    consistent: Option<(Reading, Averaged)>,
+    held: Held,
+}
+
+impl Observer {
+    /// Before the first entry.
+    #[must_use]
+    pub fn new(settings: &Settings) -> Self {
+        let judges = |method| settings.thresholds.detectors.has(method);
+        let compares = [Method::FcdConsistent, Method::Cusum, Method::Glr].into_iter().any(judges);
+        let none = Reading { position: UNDEFINED, angles: [f64::NAN; 3] };
+        Self {
+            segment: settings.segment,
+            epsilon_tau: settings.epsilon_tau,
+            sensor: Averaged::new(settings),
+            nominal: compares.then(|| Nominal::new(&settings.segment, &settings.clock)),
+            consistent: judges(Method::FcdConsistent).then(|| (none, Averaged::new(settings))),
+            held: Held::UNDEFINED,
+        }
+    }
 
     /// Takes the next entry.
     pub fn observe(&mut self, entry: &Entry) -> Evidence {
         let Entry { configuration, reading, tau_lc, .. } = entry;
-        let motion = self.motion(reading);
+        let motion = self.sensor.motion(reading);
+        let expected = Expectation::new(&self.segment, *configuration, self.epsilon_tau);
+        if let Some(new) = self.nominal.as_mut().and_then(|nominal| nominal.take(entry)) {
+            self.renew(&new);
+        }
         let (segment, epsilon_tau) = (&self.segment, self.epsilon_tau);
-        let expected = Expectation::new(segment, *configuration, epsilon_tau);
         let (sensor_centrode, deviation) = deviation(&expected.centrode, &motion);
+        let speed = motion.twist.angular.norm();
+        let consistent = self.consistent.as_mut().map_or(f64::NAN, |(reading, average)| {
+            let model = average.motion(reading);
+            centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm())
+        });
         let judgement = Judgement {
             model_centrode: expected.centrode,
             sensor_centrode,
             deviation,
-            speed: motion.twist.angular.norm(),
+            speed,
             residual: expected.residual(segment, configuration, tau_lc),
             common_bound: segment.common_error_bound(configuration, tau_lc, epsilon_tau),
             independent_bound: segment.independent_error_bound(configuration, tau_lc, epsilon_tau),
             shape_bound: expected.shape_bound,
+            consistent,
+            velocity: if speed == 0.0 { 0.0 } else { speed * deviation },
+            cusum: self.held.cusum,
+            glr: self.held.glr,
         };
         Evidence { motion, judgement }
+    }
+
+    /// Takes a new reading of the tracker with what is expected of it: what follows from it holds until the next one.
+    fn renew(&mut self, expected: &Expected) {
+        if let Some((held, _)) = &mut self.consistent {
+            *held = expected.reading;
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::alarm::{Alarms, Crossing, Detection, Event};
 use super::evidence::{Evidence, Observer};
+use super::nominal::Clock;
 use super::statistic::Method;
 use crate::model::{Assumed, Assumption, Segment};
 use crate::record::Recording;
@@ -18,7 +19,9 @@ pub struct Settings {
     pub loop_rate: f64,
     /// The moving average over the tracker's readings.
     pub filter: Filter,
-    /// Thresholds, and when they are looked at.
+    /// When the tracker reads, and how its marker is mounted.
+    pub clock: Clock,
+    /// The detectors that judge, their thresholds, and when they are looked at.
     pub thresholds: Thresholds,
     /// What Eq. 24 takes the contact to be.
     pub assumption: Assumption,
@@ -34,9 +37,25 @@ impl Settings {
             epsilon_tau: scenario.load_cells.epsilon_tau,
             loop_rate: scenario.loop_rate,
             filter: scenario.filter.clone(),
+            clock: Clock::of(plan),
             thresholds: scenario.detection.clone(),
             assumption: assumption(plan),
         }
+    }
+
+    /// Whether the same is computed at each instant by these settings as by others: they differ at most in thresholds, and in which of
+    /// those detectors judge that cost nothing.
+    #[must_use]
+    pub fn see_as(&self, other: &Self) -> bool {
+        let computed = |settings: &Self| {
+            let mut detectors = settings.thresholds.detectors;
+            [Method::Fcd, Method::Jfd, Method::FcdVelocity].into_iter().for_each(|free| detectors.set(free, false));
+            detectors
+        };
+        // Every field by name, so that one to come is thought of.
+        let Self { segment, epsilon_tau, loop_rate, filter, clock, thresholds: _, assumption: _ } = self;
+        (segment, epsilon_tau, loop_rate) == (&other.segment, &other.epsilon_tau, &other.loop_rate)
+            && (filter, clock, computed(self)) == (&other.filter, &other.clock, computed(other))
     }
 }
 
@@ -62,7 +81,7 @@ pub struct Judged {
     pub evidence: Vec<Evidence>,
     /// Threshold crossings, in order.
     pub crossings: Vec<Crossing>,
-    /// Events of all detectors, in the order in which they were raised.
+    /// Events of the detectors that judge, in the order in which they were raised.
     pub events: Vec<Event>,
 }
 

@@ -19,24 +19,33 @@ pub struct Outlook {
 #[must_use]
 pub fn outlooks(log: &Log, source: Commands) -> Vec<Outlook> {
     let estimated = source == Commands::Estimated;
-    let of = |detector| {
+    let of = |detector: Method| {
+        let name = detector.key().to_uppercase();
         let (works, why) = match detector {
-            Method::Fcd if log.readings.is_empty() => {
-                (false, "no readings of the tracker: FCD needs position and orientation")
-            }
-            Method::Fcd if !log.has_orientation() => (false, "no orientation: FCD needs it"),
-            Method::Fcd if estimated => (
-                true,
-                "no command: FCD takes the bend from the tracker itself, so its noise counts twice, and an end disk that does \
-                 not turn as commanded goes unnoticed",
-            ),
-            Method::Jfd if log.forces.is_empty() => (false, "no load cells: JFD needs tau_1, tau_2 and tau_3"),
+            Method::Jfd if log.forces.is_empty() => (false, "no load cells: JFD needs tau_1, tau_2 and tau_3".into()),
             Method::Jfd if estimated => {
-                (true, "no command: JFD takes the bend from the tracker, so the tracker's noise enters Θ")
+                (true, "no command: JFD takes the bend from the tracker, so the tracker's noise enters Θ".into())
             }
-            _ => (true, ""),
+            Method::Jfd => (true, String::new()),
+            _ if log.readings.is_empty() => {
+                (false, format!("no readings of the tracker: {name} needs position and orientation"))
+            }
+            _ if !log.has_orientation() => (false, format!("no orientation: {name} needs it")),
+            Method::Cusum | Method::Glr if estimated => {
+                (false, "no command: the calibration filter compares readings with the commanded pose".into())
+            }
+            Method::Fcd | Method::FcdConsistent | Method::FcdVelocity if estimated => (
+                true,
+                format!(
+                    "no command: {name} takes the bend from the tracker itself, so its noise counts twice, and an end disk that \
+                     does not turn as commanded goes unnoticed"
+                ),
+            ),
+            Method::Fcd | Method::FcdConsistent | Method::FcdVelocity | Method::Cusum | Method::Glr => {
+                (true, String::new())
+            }
         };
-        Outlook { detector, works, why: why.into() }
+        Outlook { detector, works, why }
     };
     Method::ALL.iter().copied().map(of).collect()
 }

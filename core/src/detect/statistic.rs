@@ -1,48 +1,56 @@
 //! What a method holds against its threshold, and the one place that says whether that counts at an instant.
 
 use super::evidence::Judgement;
+pub use crate::scenario::Method;
+use crate::scenario::keys::{self, Quantity};
 use crate::scenario::{Threshold, Thresholds, Xi1Rule};
-use serde::{Deserialize, Serialize};
-
-/// How a contact is noticed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Fixed centrode deviation ‖c_m − c_s‖ above ξ2 (Eq. 19).
-    Fcd,
-    /// Joint force deviation Θ above ξ1 (Eqs. 12, 16).
-    Jfd,
-}
 
 impl Method {
-    /// All of them, in the order in which they judge an instant.
-    pub const ALL: &'static [Self] = &[Self::Fcd, Self::Jfd];
-
-    /// Its key in files and on the command line.
-    #[must_use]
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Fcd => "fcd",
-            Self::Jfd => "jfd",
-        }
-    }
-
     /// The key of its threshold in a scenario.
     #[must_use]
-    pub fn threshold_key(self) -> &'static str {
+    pub const fn threshold_key(self) -> &'static str {
         match self {
             Self::Fcd => "detection.xi2",
             Self::Jfd => "detection.xi1",
+            Self::FcdConsistent => "detection.consistent",
+            Self::FcdVelocity => "detection.velocity",
+            Self::Cusum => "detection.cusum",
+            Self::Glr => "detection.glr",
         }
+    }
+
+    /// What its values and its threshold are, and so in which units they are shown.
+    #[must_use]
+    pub const fn quantity(self) -> Quantity {
+        match keys::find(self.threshold_key()) {
+            Some(key) => key.quantity,
+            None => Quantity::Count,
+        }
+    }
+
+    /// Its value at an instant, SI; NaN where it is not defined.
+    #[must_use]
+    pub fn value(self, judgement: &Judgement) -> f64 {
+        match self {
+            Self::Fcd => judgement.deviation,
+            Self::Jfd => judgement.residual,
+            Self::FcdConsistent => judgement.consistent,
+            Self::FcdVelocity => judgement.velocity,
+            Self::Cusum => judgement.cusum,
+            Self::Glr => judgement.glr,
+        }
+    }
+
+    /// Whether Eq. 24 places a contact at its alarm: it does where the sensor's centrode raises it.
+    #[must_use]
+    pub fn places(self) -> bool {
+        matches!(self, Self::Fcd | Self::FcdConsistent | Self::FcdVelocity)
     }
 
     /// Its statistic at an instant at `time` (s).
     #[must_use]
     pub fn statistic(self, judgement: &Judgement, time: f64, thresholds: &Thresholds) -> Statistic {
-        let value = match self {
-            Self::Fcd => judgement.deviation,
-            Self::Jfd => judgement.residual,
-        };
+        let value = self.value(judgement);
         Statistic { value, standing: self.standing(value, judgement.speed, time, thresholds) }
     }
 
@@ -50,35 +58,34 @@ impl Method {
     #[must_use]
     pub fn standing(self, value: f64, speed: f64, time: f64, thresholds: &Thresholds) -> Standing {
         let moves = match self {
-            Self::Fcd => speed > thresholds.min_speed,
-            Self::Jfd => true,
+            Self::Fcd | Self::FcdConsistent => speed > thresholds.min_speed,
+            Self::Jfd | Self::FcdVelocity | Self::Cusum | Self::Glr => true,
         };
         if !moves || value.is_nan() {
             Standing::Silent
-        } else if time < thresholds.armed_from {
+        } else if thresholds.waits(self) && time < thresholds.armed_from {
             Standing::Unarmed
         } else {
             Standing::Counts
         }
     }
 
-    /// Its threshold at an instant: m for the centrode, N·m for joint forces; none while switched off.
+    /// Its threshold at an instant, in the unit of its values; none while switched off.
     #[must_use]
     pub fn threshold(self, judgement: &Judgement, thresholds: &Thresholds) -> Option<f64> {
         match self {
-            Self::Fcd => thresholds.xi2.value(),
             Self::Jfd => thresholds.xi1_at(judgement.shape_bound),
+            _ => thresholds.of(self).value(),
         }
     }
 
-    /// What is set of its threshold, as a study counts it: ξ2 in m, ξ1 in N·m, or k where ξ1 follows the shape; none while
-    /// switched off. Times [`Method::unit`] it is the threshold.
+    /// What is set of its threshold, as a study counts it: SI, or k where ξ1 follows the shape; none while switched off. Times
+    /// [`Method::unit`] it is the threshold.
     #[must_use]
     pub fn setting(self, thresholds: &Thresholds) -> Option<f64> {
         match (self, thresholds.xi1_rule) {
-            (Self::Fcd, _) => thresholds.xi2.value(),
-            (Self::Jfd, Xi1Rule::Constant) => thresholds.xi1.value(),
             (Self::Jfd, Xi1Rule::Bound) => thresholds.xi1.value().map(|_| thresholds.xi1_factor),
+            _ => thresholds.of(self).value(),
         }
     }
 
@@ -104,9 +111,9 @@ impl Method {
 
     /// Thresholds in which what is set of its own plays no part, but for the unit.
     pub fn forget_setting(self, thresholds: &mut Thresholds) {
-        match self {
-            Self::Fcd => thresholds.xi2 = Threshold::OFF,
-            Self::Jfd => (thresholds.xi1, thresholds.xi1_factor) = (Threshold::OFF, Thresholds::default().xi1_factor),
+        *thresholds.of_mut(self) = Threshold::OFF;
+        if self == Self::Jfd {
+            thresholds.xi1_factor = Thresholds::default().xi1_factor;
         }
     }
 
@@ -133,7 +140,7 @@ pub enum Standing {
 /// A value of a method at one instant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Statistic {
-    /// m for the centrode, N·m for joint forces; NaN where it is not defined.
+    /// In the unit of the method's [`Method::quantity`], SI; NaN where it is not defined.
     pub value: f64,
     /// Whether it counts.
     pub standing: Standing,
@@ -160,7 +167,7 @@ impl Statistic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::Vec3;
+    use crate::scenario::Arming;
 
     #[test]
     fn a_setting_times_its_unit_is_the_threshold() {
@@ -179,16 +186,9 @@ mod tests {
     }
 
     fn judgement(deviation: f64, speed: f64, residual: f64) -> Judgement {
-        Judgement {
-            model_centrode: Vec3::zeros(),
-            sensor_centrode: Vec3::zeros(),
-            deviation,
-            speed,
-            residual,
-            common_bound: 0.0,
-            independent_bound: 0.0,
-            shape_bound: 0.0,
-        }
+        let velocity = if speed == 0.0 { 0.0 } else { speed * deviation };
+        let consistent = deviation - 0.000_77;
+        Judgement { deviation, speed, residual, consistent, velocity, cusum: residual, ..Judgement::UNDEFINED }
     }
 
     #[test]
@@ -202,10 +202,31 @@ mod tests {
             (Method::Jfd, 0.01, 0.0, 0.1, 5.0, Standing::Counts),
             (Method::Jfd, 0.01, 0.0, 0.1, 4.0, Standing::Unarmed),
             (Method::Jfd, 0.01, 0.06, f64::NAN, 6.0, Standing::Silent),
+            (Method::FcdConsistent, 0.01, 0.06, 0.0, 1.0, Standing::Counts),
+            (Method::FcdConsistent, 0.01, 0.05, 0.0, 6.0, Standing::Silent),
+            (Method::FcdVelocity, 0.01, 0.01, 0.0, 1.0, Standing::Counts),
+            (Method::FcdVelocity, f64::NAN, 0.0, 0.0, 6.0, Standing::Counts),
+            (Method::Cusum, 0.0, 0.0, 3.0, 0.0, Standing::Counts),
+            (Method::Cusum, 0.0, 0.0, f64::NAN, 6.0, Standing::Silent),
+            (Method::Glr, 0.0, 1.0, 0.0, 6.0, Standing::Silent),
         ] {
             let statistic = method.statistic(&judgement(deviation, speed, residual), time, &thresholds);
             assert_eq!(statistic.standing, standing, "{method:?} {deviation} {speed} {residual} {time}");
             assert_eq!(statistic.counted().is_some(), standing == Standing::Counts);
+            let all = Thresholds { arming: Arming::All, ..thresholds.clone() };
+            let waits = standing == Standing::Counts && time < 5.0;
+            let statistic = method.statistic(&judgement(deviation, speed, residual), time, &all);
+            assert_eq!(statistic.standing, if waits { Standing::Unarmed } else { standing }, "{method:?}");
+        }
+    }
+
+    #[test]
+    fn values_are_shown_in_units_of_their_thresholds() {
+        let units = Method::ALL.iter().map(|method| method.quantity().unit());
+        assert!(units.eq(["mm", "mN·m", "mm", "mm/s", "", ""]));
+        for &method in Method::ALL {
+            let key = keys::find(method.threshold_key()).expect("a key");
+            assert!(key.has_off() && key.number(&crate::scenario::Scenario::default()).is_some(), "{method:?}");
         }
     }
 }

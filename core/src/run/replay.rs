@@ -91,9 +91,7 @@ impl Run {
     pub(super) fn judge_again(&mut self, plan: Plan) -> Anew {
         let settings = Settings::of(&plan);
         let before = &self.judged.settings;
-        let same =
-            Settings { thresholds: before.thresholds.clone(), assumption: before.assumption, ..settings.clone() }
-                == *before;
+        let same = settings.see_as(before);
         if same {
             self.alarm_again(settings);
         } else {

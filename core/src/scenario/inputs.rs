@@ -4,9 +4,11 @@
 
 mod calibration;
 mod contact;
+mod detection;
 
 pub use calibration::{Calibration, Draw};
 pub use contact::{Contact, ContactKind, Place, Start};
+pub use detection::{Arming, Detectors, Method, Off, Threshold, Thresholds, Xi1Rule};
 
 use crate::model::Segment;
 use serde::{Deserialize, Serialize};
@@ -272,97 +274,6 @@ pub enum Averaging {
     Readings,
     /// The rotations themselves, on SO(3) (the normalised mean quaternion): no singular orientation.
     Rotations,
-}
-
-/// Thresholds, and when they are looked at.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Thresholds {
-    /// ξ1 of the joint force deviation Θ, N·m, or `"off"` (illustrative: above ε_c of the default robot).
-    pub xi1: Threshold,
-    /// Whether ξ1 is that constant, or follows the shape as k·ε_c(θL) (illustrative). `xi1 = "off"` silences both.
-    pub xi1_rule: Xi1Rule,
-    /// k in k·ε_c(θL) (illustrative: half again what friction alone can do).
-    pub xi1_factor: f64,
-    /// ξ2 of the fixed centrode deviation ‖c_m − c_s‖, m, or `"off"`.
-    pub xi2: Threshold,
-    /// No alarm is raised before this time, s.
-    pub armed_from: f64,
-    /// The centrode deviation is judged only while ‖ω_s‖ exceeds this, rad/s (illustrative).
-    pub min_speed: f64,
-    /// An event is cleared once its value has fallen below this share of the threshold (illustrative).
-    pub release: f64,
-    /// An event lasts at least this long, s (illustrative).
-    pub hold: f64,
-}
-
-impl Default for Thresholds {
-    fn default() -> Self {
-        Self {
-            xi1: Threshold::On(0.03),
-            xi1_rule: Xi1Rule::Constant,
-            xi1_factor: 1.5,
-            xi2: Threshold::On(0.007),
-            armed_from: 5.0,
-            min_speed: 0.05,
-            release: 0.8,
-            hold: 0.1,
-        }
-    }
-}
-
-impl Thresholds {
-    /// ξ1 where the free model's bound ε_c(θL) is `shape_bound` (N·m): a constant, or k times that; none while switched off.
-    #[must_use]
-    pub fn xi1_at(&self, shape_bound: f64) -> Option<f64> {
-        let constant = self.xi1.value()?;
-        Some(match self.xi1_rule {
-            Xi1Rule::Constant => constant,
-            Xi1Rule::Bound => self.xi1_factor * shape_bound,
-        })
-    }
-}
-
-/// What ξ1 is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Xi1Rule {
-    /// `detection.xi1`, everywhere.
-    Constant,
-    /// `detection.xi1_factor` times the bound ε_c (Eq. 16) of the free model at the commanded shape.
-    Bound,
-}
-
-/// A threshold that can be switched off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(untagged, expecting = "expected a number or \"off\"")]
-pub enum Threshold {
-    /// Alarm above this value.
-    On(f64),
-    /// Never alarm.
-    Off(Off),
-}
-
-/// The word `"off"`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Off {
-    /// Switched off.
-    Off,
-}
-
-impl Threshold {
-    /// A threshold that never alarms.
-    pub const OFF: Self = Self::Off(Off::Off);
-
-    /// The value, when switched on.
-    #[must_use]
-    pub fn value(self) -> Option<f64> {
-        match self {
-            Self::On(value) => Some(value),
-            Self::Off(_) => None,
-        }
-    }
 }
 
 /// How a contact is placed.

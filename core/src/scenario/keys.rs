@@ -58,6 +58,8 @@ enum Access {
     Threshold(fn(&Scenario) -> Threshold, fn(&mut Scenario, Threshold)),
     /// The word's place in the list of words.
     Word(fn(&Scenario) -> usize, fn(&mut Scenario, usize)),
+    /// Whether the word at a place in the list of words is held, and which places are.
+    Words(fn(&Scenario, usize) -> bool, fn(&mut Scenario, &[usize])),
     Vector(fn(&Scenario) -> &[f64; 3], fn(&mut Scenario, [f64; 3])),
     List(fn(&Scenario) -> &[f64], fn(&mut Scenario, Vec<f64>)),
 }
@@ -144,6 +146,12 @@ impl Key {
         matches!(self.access, Access::Vector(..) | Access::List(..))
     }
 
+    /// Whether it holds several words.
+    #[must_use]
+    pub const fn is_words(&self) -> bool {
+        matches!(self.access, Access::Words(..))
+    }
+
     /// Whether it holds a number that need not be whole.
     #[must_use]
     pub const fn is_number(&self) -> bool {
@@ -161,6 +169,15 @@ impl Key {
     pub const fn words(&self) -> &'static [&'static str] {
         match self.allowed {
             Allowed::Words(words) => words,
+            _ => &[],
+        }
+    }
+
+    /// The words of which it holds any; empty for a key that holds one, or a number.
+    #[must_use]
+    pub const fn any_of(&self) -> &'static [&'static str] {
+        match self.allowed {
+            Allowed::Some(words) => words,
             _ => &[],
         }
     }
@@ -183,6 +200,10 @@ impl Key {
             Access::Whole(get, _) => Value::Whole(get(scenario)?),
             Access::Threshold(get, _) => get(scenario).value().map_or(Value::Off, Value::Number),
             Access::Word(get, _) => Value::Word(self.words().get(get(scenario)).copied().unwrap_or_default()),
+            Access::Words(has, _) => {
+                let words = self.any_of().iter().enumerate().filter(|(place, _)| has(scenario, *place));
+                Value::Words(words.map(|(_, word)| *word).collect())
+            }
             Access::Vector(get, _) => Value::List(get(scenario).to_vec()),
             Access::List(get, _) => Value::List(get(scenario).to_vec()),
         })
@@ -235,6 +256,21 @@ impl Key {
         }
     }
 
+    /// Whether a scenario holds one of the words of which it holds any, by its place.
+    #[must_use]
+    pub fn holds(&self, scenario: &Scenario, place: usize) -> bool {
+        matches!(self.access, Access::Words(has, _) if has(scenario, place))
+    }
+
+    /// Takes one of the words of which it holds any in or out, by its place; a key without it is left alone.
+    pub fn hold(&self, scenario: &mut Scenario, place: usize, on: bool) {
+        if let Access::Words(has, set) = self.access {
+            let kept = |&other: &usize| if other == place { on } else { has(scenario, other) };
+            let places: Vec<_> = (0..self.any_of().len()).filter(kept).collect();
+            set(scenario, &places);
+        }
+    }
+
     /// Sets a number, SI. Whole numbers are rounded, from 0 up; a key that is no number is left alone.
     pub fn set_number(&self, scenario: &mut Scenario, value: f64) {
         match self.access {
@@ -284,9 +320,26 @@ impl Key {
                 Some(place) => set(scenario, place),
                 None => return Err(self.refuse(Value::Word(word), self.allowed)),
             },
+            (Access::Words(_, set), Value::Words(words)) => set(scenario, &self.places(&words)?),
             (_, value) => return Err(self.refuse(value, self.allowed)),
         }
         Ok(())
+    }
+
+    /// The places of some of its words.
+    fn places(&self, words: &[&'static str]) -> Result<Vec<usize>, ScenarioError> {
+        let mut places = Vec::new();
+        for (at, word) in words.iter().enumerate() {
+            let refuse =
+                |allowed| Refused::error(format!("{}[{at}]", self.path), self.quantity, Value::Word(word), allowed);
+            let known = self.any_of().iter().position(|known| known == word);
+            let place = known.ok_or_else(|| refuse(Allowed::Words(self.any_of())))?;
+            if places.contains(&place) {
+                return Err(refuse(Allowed::Need("a word that does not stand in the list before")));
+            }
+            places.push(place);
+        }
+        Ok(places)
     }
 
     /// Gives one scenario what another holds, here or under the other of two keys.

@@ -156,6 +156,7 @@ fn written(value: &Value) -> String {
         Value::Number(value) => number(*value),
         Value::Whole(value) => value.to_string(),
         Value::Word(word) => (*word).into(),
+        Value::Words(words) => words.join(","),
         Value::Off => "off".into(),
         Value::List(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
         Value::Other(text) => text.clone(),

@@ -74,7 +74,7 @@ impl FromStr for Override {
         }
         let value = match format!("value = {written}").parse::<toml::Table>() {
             Ok(mut table) if table.len() == 1 => table.remove("value").ok_or_else(malformed)?,
-            _ => toml::Value::String(written.into()),
+            _ => bare(path, written),
         };
         let mut values = Vec::new();
         if GROUPS.iter().any(|group| group.path == path) {
@@ -86,6 +86,15 @@ impl FromStr for Override {
         read_into(&mut values, path, &value)?;
         Ok(Self { path: path.into(), written: written.into(), values })
     }
+}
+
+/// What is no TOML: a bare word, or several with commas where the key holds several, in brackets or not.
+fn bare(path: &str, written: &str) -> toml::Value {
+    if !keys::find(path).is_some_and(Key::is_words) {
+        return toml::Value::String(written.into());
+    }
+    let inside = written.strip_prefix('[').and_then(|rest| rest.strip_suffix(']')).unwrap_or(written);
+    toml::Value::Array(inside.split(',').map(|word| toml::Value::String(word.trim().into())).collect())
 }
 
 impl fmt::Display for Override {
@@ -155,6 +164,26 @@ mod tests {
             assert_eq!(serde_json::from_str::<Override>(&json).expect("an override"), set);
         }
         assert!(serde_json::from_str::<Override>("\"seed=x\"").is_err());
+    }
+
+    #[test]
+    fn several_words_need_no_quotes() {
+        use crate::scenario::{Detectors, Method};
+        for (text, methods) in [
+            ("detection.detectors=glr", &[Method::Glr][..]),
+            ("detection.detectors=fcd, glr", &[Method::Fcd, Method::Glr]),
+            ("detection.detectors=[cusum,jfd]", &[Method::Jfd, Method::Cusum]),
+            ("detection.detectors=[\"fcd-velocity\"]", &[Method::FcdVelocity]),
+            ("detection.detectors=[]", &[]),
+        ] {
+            let mut scenario = Scenario::default();
+            text.parse::<Override>().expect(text).apply(&mut scenario);
+            assert_eq!(scenario.detection.detectors, Detectors::of(methods), "{text}");
+        }
+        for text in ["detection.detectors=fcd,fcd", "detection.detectors=fcd,sonar", "detection.detectors=3"] {
+            let refused = text.parse::<Override>().expect_err(text).to_string();
+            assert!(refused.contains("detection.detectors"), "{refused}");
+        }
     }
 
     #[test]

@@ -132,15 +132,22 @@ impl Key {
     pub fn read(&self, value: &toml::Value) -> Result<Value, ScenarioError> {
         use toml::Value as Toml;
         let known = |word: &str| self.words().iter().find(|known| **known == word);
+        let part = |place: usize, item: &Toml, allowed| {
+            Refused::error(format!("{}[{place}]", self.path), self.quantity, written(item), allowed)
+        };
         let read = match value {
             Toml::Integer(number) if self.is_whole() => u64::try_from(*number).ok().map(Value::Whole),
             Toml::Array(items) if self.is_list() => {
-                let part = |(place, item): (usize, &Toml)| {
-                    float(item).ok_or_else(|| {
-                        Refused::error(format!("{}[{place}]", self.path), self.quantity, written(item), Allowed::Number)
-                    })
+                let number = |(place, item)| float(item).ok_or_else(|| part(place, item, Allowed::Number));
+                Some(Value::List(items.iter().enumerate().map(number).collect::<Result<_, _>>()?))
+            }
+            Toml::Array(items) if self.is_words() => {
+                let words = self.any_of();
+                let word = |(place, item): (usize, &Toml)| {
+                    let known = item.as_str().and_then(|text| words.iter().find(|word| **word == text));
+                    known.copied().ok_or_else(|| part(place, item, Allowed::Words(words)))
                 };
-                Some(Value::List(items.iter().enumerate().map(part).collect::<Result<_, _>>()?))
+                Some(Value::Words(items.iter().enumerate().map(word).collect::<Result<_, _>>()?))
             }
             Toml::String(word) if word == "off" && self.has_off() => Some(Value::Off),
             Toml::String(word) => known(word).map(|word| Value::Word(word)),
@@ -224,9 +231,14 @@ mod tests {
     #[test]
     fn a_scenario_survives_its_own_text() {
         let mut draft = Draft::from_scenario(&Scenario::default());
-        for text in
-            ["contact.arc_length=0.011", "contact.bend=0.4", "detection.xi1=off", "seed=99", "robot.disks=[0.01]"]
-        {
+        for text in [
+            "contact.arc_length=0.011",
+            "contact.bend=0.4",
+            "detection.xi1=off",
+            "detection.detectors=[]",
+            "seed=99",
+            "robot.disks=[0.01]",
+        ] {
             draft.set(text).expect(text);
         }
         let scenario = draft.finish().expect("valid");
@@ -288,6 +300,12 @@ mod tests {
             ("[load_cells]\nerrors = \"all\"", &["load_cells.errors", "all", "independent"]),
             ("[detection]\nxi1_rule = \"shape\"", &["detection.xi1_rule", "shape", "bound"]),
             ("[detection]\nxi1_factor = -1", &["detection.xi1_factor", "-1", "0 or more"]),
+            ("[detection]\ndetectors = [\"fcd\", \"sonar\"]", &["detection.detectors[1]", "sonar", "fcd-velocity"]),
+            ("[detection]\ndetectors = [\"fcd\", 3]", &["detection.detectors[1]", "= 3", "cusum"]),
+            ("[detection]\ndetectors = [\"glr\", \"jfd\", \"glr\"]", &["detection.detectors[2]", "glr", "before"]),
+            ("[detection]\ndetectors = \"fcd\"", &["detection.detectors", "a list of any of", "jfd"]),
+            ("[detection]\nvelocity = -1", &["detection.velocity", "-1", "0 m/s or more"]),
+            ("[detection]\narming = \"none\"", &["detection.arming", "none", "paper"]),
             ("seed = [", &["line 1"]),
             ("a = 1\n[b", &["line 2"]),
         ] {

@@ -8,7 +8,7 @@ use crate::chart::{Axis, Panel, Role, Series, Span, Style, Vertical};
 use crate::detect::{Detection, Event, Method, Standing};
 use crate::plant::{Happening, PlantEvent};
 use crate::run::{Run, Sample};
-use crate::scenario::{Thresholds, Xi1Rule};
+use crate::scenario::{Detectors, Thresholds, Xi1Rule};
 
 /// Room beyond the angles of the motion, as a share of their difference, and the least difference that counts, rad.
 const MARGIN: f64 = 0.08;
@@ -37,33 +37,46 @@ pub struct Measure {
     pub role: Role,
 }
 
-/// How the values of a detector are called and shown.
+/// How the values of a detector are called and shown; the units are those of its threshold's key.
 #[must_use]
 pub fn measure(method: Method) -> Measure {
-    match method {
-        Method::Fcd => Measure {
-            detector: "Centrode",
-            symbol: "‖c_m − c_s‖",
-            name: "Centrode deviation",
-            threshold: "ξ_2",
-            scale: 1e3,
-            si_unit: "m",
-            unit: "mm",
-            decimals: 2,
-            role: Role::Sensor,
-        },
-        Method::Jfd => Measure {
-            detector: "Joint forces",
-            symbol: "Θ",
-            name: "Joint force deviation",
-            threshold: "ξ_1",
-            scale: 1e3,
-            si_unit: "N·m",
-            unit: "mN·m",
-            decimals: 1,
-            role: Role::Force,
-        },
-    }
+    let (detector, symbol, name, threshold, role, decimals) = match method {
+        Method::Fcd => ("Centrode", "‖c_m − c_s‖", "Centrode deviation", "ξ_2", Role::Sensor, 2),
+        Method::Jfd => ("Joint forces", "Θ", "Joint force deviation", "ξ_1", Role::Force, 1),
+        Method::FcdConsistent => {
+            ("Consistent centrode", "‖c_f − c_s‖", "Consistent centrode deviation", "ξ_f", Role::Sensor, 2)
+        }
+        Method::FcdVelocity => ("Velocity", "ω_s‖c_m − c_s‖", "Velocity deviation", "ξ_v", Role::Sensor, 2),
+        Method::Cusum => ("CUSUM", "g", "Log likelihood ratio", "h", Role::Likelihood, 2),
+        Method::Glr => ("GLR", "Λ", "Log likelihood ratio", "h_Λ", Role::Likelihood, 2),
+    };
+    let quantity = method.quantity();
+    let si_unit = match quantity.si_unit() {
+        "" => "1",
+        unit => unit,
+    };
+    let (scale, unit) = (quantity.shown(1.0), quantity.unit());
+    Measure { detector, symbol, name, threshold, scale, si_unit, unit, decimals, role }
+}
+
+/// The detectors that judge, as they share plots: [`Method::Cusum`] and [`Method::Glr`] have one.
+#[must_use]
+pub fn plots(detectors: Detectors) -> Vec<Vec<Method>> {
+    const SHARED: [&[Method]; 5] = [
+        &[Method::Fcd],
+        &[Method::FcdConsistent],
+        &[Method::FcdVelocity],
+        &[Method::Jfd],
+        &[Method::Cusum, Method::Glr],
+    ];
+    let judge = |methods: &&[Method]| methods.iter().copied().filter(|&method| detectors.has(method)).collect();
+    SHARED.iter().map(judge).filter(|methods: &Vec<Method>| !methods.is_empty()).collect()
+}
+
+/// Whether a plot of a detector says something: those of the paper always do, the others where they have a value.
+#[must_use]
+pub fn has_plot(run: &Run, method: Method) -> bool {
+    method.is_of_paper() || run.judged.evidence.iter().any(|evidence| method.value(&evidence.judgement).is_finite())
 }
 
 /// A curve over time.
@@ -111,6 +124,11 @@ pub fn curves(method: Method, thresholds: &Thresholds) -> Vec<Curve> {
                 },
             ]
         }
+        Method::FcdConsistent => vec![judged(|sample, _| sample.judgement.consistent)],
+        Method::FcdVelocity => vec![judged(|sample, _| sample.judgement.velocity)],
+        Method::Cusum => vec![judged(|sample, _| sample.judgement.cusum)],
+        // Beside the line of CUSUM, with which it shares a plot.
+        Method::Glr => vec![Curve { style: Style::Dashed, ..judged(|sample, _| sample.judgement.glr) }],
     }
 }
 
@@ -123,32 +141,37 @@ pub fn top(run: &Run, method: Method, threshold: f64) -> f64 {
     range::top(threshold * scale, &mut values) / scale
 }
 
-/// What a detector judges over time, up to `top` (SI): behind it what that is compared with; where it is not judged it stands
-/// back. The threshold and the [`events`] are not drawn.
+/// What the detectors of a plot judge over time, up to `top` (SI): behind it what that is compared with; where it is not judged it
+/// stands back. Thresholds and the [`events`] are not drawn. Without detectors it is empty.
 #[must_use]
-pub fn statistic(run: &Run, method: Method, top: f64) -> Panel {
+pub fn statistic(run: &Run, methods: &[Method], top: f64) -> Panel {
     let thresholds = &run.judged.settings.thresholds;
-    let Measure { symbol, name, scale, si_unit, unit, role, .. } = measure(method);
+    let Some(&first) = methods.first() else { return over_time(run, Axis::new("", "1", "", 1.0)) };
+    let Measure { symbol, name, scale, si_unit, unit, .. } = measure(first);
     let y = Axis { range: Some([0.0, top]), ..Axis::new(symbol, si_unit, unit, scale) };
     let mut panel = Panel { title: name.into(), off_scale: true, ..over_time(run, y) };
-    panel.spans.push(unarmed([0.0, end(run)], thresholds.armed_from));
-    panel.spans.extend(held(&contacts(run), true));
-    let mut all = curves(method, thresholds).into_iter();
-    let judged = all.next();
-    for Curve { name, role, style, value } in all {
-        let points = run.samples().map(|sample| [sample.time, value(&sample, thresholds)]).collect();
-        panel.series.push(Series::new(name, role, style, points));
+    if methods.iter().all(|&method| thresholds.waits(method)) {
+        panel.spans.push(unarmed([0.0, end(run)], thresholds.armed_from));
     }
-    for (faint, counts) in [(true, false), (false, true)] {
-        let Some(Curve { name, value, .. }) = judged else { continue };
-        let point = |sample: Sample| {
-            let value = value(&sample, thresholds);
-            let standing = method.standing(value, sample.judgement.speed, sample.time, thresholds);
-            [sample.time, if (standing != Standing::Silent) == counts { value } else { f64::NAN }]
-        };
-        let name = if faint { "" } else { name };
-        let points = run.samples().map(point).collect();
-        panel.series.push(Series { faint, ..Series::new(name, role, Style::Line, points) });
+    panel.spans.extend(held(&contacts(run), true));
+    for &method in methods {
+        let mut all = curves(method, thresholds).into_iter();
+        let judged = all.next();
+        for Curve { name, role, style, value } in all {
+            let points = run.samples().map(|sample| [sample.time, value(&sample, thresholds)]).collect();
+            panel.series.push(Series::new(name, role, style, points));
+        }
+        for (faint, counts) in [(true, false), (false, true)] {
+            let Some(Curve { name, role, style, value }) = judged else { continue };
+            let point = |sample: Sample| {
+                let value = value(&sample, thresholds);
+                let standing = method.standing(value, sample.judgement.speed, sample.time, thresholds);
+                [sample.time, if (standing != Standing::Silent) == counts { value } else { f64::NAN }]
+            };
+            let name = if faint { "" } else { name };
+            let points = run.samples().map(point).collect();
+            panel.series.push(Series { faint, ..Series::new(name, role, style, points) });
+        }
     }
     panel
 }
@@ -194,7 +217,7 @@ pub fn events(run: &Run, method: Method) -> Vec<Series> {
 /// The same of events in their order, with the detection that is made of one of them.
 pub(super) fn marks(events: &[Event], detection: Option<Detection>, method: Method) -> Vec<Series> {
     let own = || events.iter().filter(|event| event.detector == method);
-    let found = |event: &Event| event.detection.is_some() && event.detection == detection;
+    let found = |event: &Event| is_made_of(detection, event);
     let role = |event: &Event| if found(event) { Role::Detection } else { measure(method).role };
     let cleared = own().filter_map(|event| Some([event.cleared?, event.threshold])).collect();
     let mut all = vec![Series::new("cleared", measure(method).role, Style::Circles, cleared)];
@@ -206,7 +229,11 @@ pub(super) fn marks(events: &[Event], detection: Option<Detection>, method: Meth
 /// Whether an event is the one that the detection of a run is made of.
 #[must_use]
 pub fn is_detection(run: &Run, event: &Event) -> bool {
-    event.detection.is_some() && event.detection == run.detection()
+    is_made_of(run.detection(), event)
+}
+
+fn is_made_of(detection: Option<Detection>, event: &Event) -> bool {
+    event.detector == Method::Fcd && event.detection.is_some() && event.detection == detection
 }
 
 /// A panel over the time of a run, with its detection.
@@ -307,8 +334,8 @@ mod tests {
     #[test]
     fn every_value_is_drawn_once_and_what_is_not_judged_stands_back() {
         let run = run("bench");
-        for &method in Method::ALL {
-            let panel = statistic(&run, method, 0.1);
+        for &method in Method::PAPER {
+            let panel = statistic(&run, &[method], 0.1);
             let [.., still, judged] = &panel.series[..] else { panic!("{method:?}") };
             assert!(still.faint && !judged.faint);
             let value = curves(method, &run.judged.settings.thresholds)[0].value;
@@ -317,6 +344,22 @@ mod tests {
                 assert!(value.is_nan() || (a == value) != (b == value), "{method:?} at {} s", sample.time);
             }
         }
+    }
+
+    #[test]
+    fn likelihood_ratios_share_a_plot_and_what_has_no_value_has_none() {
+        let all = plots(Detectors::of(Method::ALL));
+        assert_eq!(all.last().map(Vec::as_slice), Some(&[Method::Cusum, Method::Glr][..]));
+        assert_eq!((all.len(), all.concat().len()), (5, Method::ALL.len()));
+        assert_eq!(plots(Detectors::of(&[Method::Glr])), [[Method::Glr]]);
+        let mut run = run("bench");
+        assert!(has_plot(&run, Method::Jfd) && !has_plot(&run, Method::FcdConsistent) && !has_plot(&run, Method::Glr));
+        let mut scenario = run.plan.scenario().clone();
+        scenario.detection.detectors = Detectors::of(&[Method::FcdConsistent]);
+        run.update(crate::scenario::Plan::new(&scenario).expect("possible"));
+        assert!(has_plot(&run, Method::FcdConsistent));
+        let panel = statistic(&run, &[Method::FcdConsistent], 0.1);
+        assert!(panel.spans.iter().all(|span| span.name != "not armed"), "it does not wait");
     }
 
     #[test]

@@ -12,9 +12,7 @@ pub const MAX_CROSSINGS: usize = 1_000_000;
 
 /// A run crosses thresholds too often for a list.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-#[error(
-    "at most {MAX_CROSSINGS} threshold crossings are listed, and at {time} s there are more: raise detection.xi2 or detection.xi1"
-)]
+#[error("at most {MAX_CROSSINGS} threshold crossings are listed, and at {time} s there are more: raise the thresholds")]
 pub struct TooMany {
     /// When the first one too many happens, s.
     pub time: f64,
@@ -39,7 +37,7 @@ pub struct Report<L = ()> {
     /// Crossings that are not listed.
     #[serde(skip)]
     pub more: u64,
-    /// The first crossing of ξ2; null when there is none.
+    /// The first alarm of fcd; null when there is none.
     pub detection: Option<Found>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
     pub peak: Peaks,

@@ -49,14 +49,16 @@ struct Detector {
     /// Largest value judged, and largest threshold.
     highest: f64,
     most: f64,
+    /// Whether it has had a value.
+    defined: bool,
 }
 
 impl Timeline {
-    /// For at most `samples` of the given detectors.
+    /// For at most `samples` of the detectors of a scenario.
     #[must_use]
-    pub fn new(scenario: &Scenario, detectors: &[Method], samples: usize) -> Self {
+    pub fn new(scenario: &Scenario, samples: usize) -> Self {
         let thin = || Thinner::new(samples);
-        let detector = |&method: &Method| Detector {
+        let detector = |method: Method| Detector {
             method,
             beside: curves(method, &scenario.detection).into_iter().skip(1).map(|curve| (curve, thin())).collect(),
             silent: thin(),
@@ -64,10 +66,11 @@ impl Timeline {
             threshold: thin(),
             highest: 0.0,
             most: 0.0,
+            defined: false,
         };
         Self {
             scenario: scenario.clone(),
-            detectors: detectors.iter().map(detector).collect(),
+            detectors: scenario.detection.detectors.iter().map(detector).collect(),
             bend: thin(),
             bends: None,
             contacts: Vec::new(),
@@ -90,13 +93,14 @@ impl Timeline {
         }
         self.touches = sample.in_contact;
         for detector in &mut self.detectors {
-            let Detector { method, beside, silent, judged, threshold, highest, most } = detector;
+            let Detector { method, beside, silent, judged, threshold, highest, most, defined } = detector;
             let statistic = method.statistic(&sample.judgement, time, thresholds);
             let (shown, hidden) = match statistic.standing {
                 Standing::Silent => (f64::NAN, statistic.value),
                 _ => (statistic.value, f64::NAN),
             };
             *highest = highest.max(statistic.counted().unwrap_or(0.0));
+            *defined |= statistic.value.is_finite();
             judged.push([time, shown]);
             silent.push([time, hidden]);
             let limit = method.threshold(&sample.judgement, thresholds).unwrap_or(f64::NAN);
@@ -119,12 +123,14 @@ impl Timeline {
     fn finish(self, title: String, caption: String, events: &[Event]) -> Chart {
         let ends = self.ends.filter(|[from, to]| to > from).unwrap_or([0.0, 1.0]);
         let detection = Detection::first(events);
-        let armed_from = self.scenario.detection.armed_from;
+        let thresholds = &self.scenario.detection;
         let mut panels = Vec::new();
-        for detector in self.detectors {
+        let shown = |detector: &Detector| detector.defined || detector.method.is_of_paper();
+        for detector in self.detectors.into_iter().filter(shown) {
             let method = detector.method;
             let mut panel = detector.panel(ends, detection);
-            panel.spans.extend(Some(unarmed(ends, armed_from)).filter(|span| span.ends[1] > span.ends[0]));
+            let waits = thresholds.waits(method).then(|| unarmed(ends, thresholds.armed_from));
+            panel.spans.extend(waits.filter(|span| span.ends[1] > span.ends[0]));
             panel.spans.extend(held(&self.contacts, true));
             let few = &events[..events.len().min(MOST_EVENTS)];
             panel.series.extend(marks(few, detection, method));
@@ -140,7 +146,7 @@ impl Timeline {
 impl Detector {
     /// What was judged with its threshold, without the events.
     fn panel(self, ends: [f64; 2], detection: Option<Detection>) -> Panel {
-        let Self { method, beside, silent, judged, threshold: limits, highest, most } = self;
+        let Self { method, beside, silent, judged, threshold: limits, highest, most, .. } = self;
         let Measure { symbol, name, threshold, scale, si_unit, unit, role, .. } = measure(method);
         let reach = HEADROOM[1] * highest;
         let top = if most > 0.0 { reach.clamp(HEADROOM[0] * most, MOST * most) } else { reach };
@@ -170,7 +176,7 @@ pub fn recorded(run: &Run, name: &str) -> Chart {
 }
 
 fn whole(run: &Run) -> Timeline {
-    let mut timeline = Timeline::new(run.plan.scenario(), Method::ALL, run.len());
+    let mut timeline = Timeline::new(run.plan.scenario(), run.len());
     run.samples().for_each(|sample| timeline.push(&sample));
     timeline
 }
@@ -211,7 +217,7 @@ mod tests {
             let scenario = preset.scenario().expect("valid");
             let plan = Plan::new(&scenario).expect("possible");
             let mut simulation = Simulation::new(&plan);
-            let mut timeline = Timeline::new(&scenario, Method::ALL, plan.samples());
+            let mut timeline = Timeline::new(&scenario, plan.samples());
             for sample in simulation.by_ref() {
                 timeline.push(&sample);
             }
@@ -244,7 +250,7 @@ mod tests {
     #[test]
     fn without_samples_or_thresholds_there_are_still_axes() {
         let scenario = Scenario::default();
-        let empty = Timeline::new(&scenario, Method::ALL, 0).finish(String::new(), String::new(), &[]);
+        let empty = Timeline::new(&scenario, 0).finish(String::new(), String::new(), &[]);
         assert_eq!(empty.panels.len(), 3);
         assert!(empty.panels.iter().all(|panel| panel.x.range == Some([0.0, 1.0])));
     }

@@ -11,7 +11,7 @@ use crate::app::command::Command;
 use crate::app::theme::Theme;
 use crate::show::obstacle;
 use crate::show::track::{Trace, standing};
-use centrode_core::detect::Standing;
+use centrode_core::detect::{Method, Standing};
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
@@ -279,7 +279,8 @@ impl View<'_> {
         }
         if let (Some(model), Some(sensor), true) = (model, sensor, armed) {
             let settings = &self.run.plan.scenario().detection;
-            let over = settings.xi2.value().is_some_and(|xi2| sample.judgement.deviation > xi2);
+            let over = settings.judges(Method::Fcd)
+                && settings.xi2.value().is_some_and(|xi2| sample.judgement.deviation > xi2);
             let color = if over { theme.detection } else { theme.sensor };
             let ends = [self.axes.at(model), self.axes.at(sensor)];
             painter.line_segment(ends, Stroke::new(2.0, color));

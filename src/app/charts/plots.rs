@@ -25,13 +25,12 @@ use centrode_core::study::course;
 use egui::{Painter, Rect, Ui, Vec2, pos2, vec2};
 use frame::{Frame, GUTTER, RIGHT, SMALL};
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
-/// From this width on the plots stand side by side.
-const SIDE_BY_SIDE: f32 = 780.0;
-/// In a frame, where scrolling is the host page's, from this width on before they would have to be scrolled.
-const FRAMED_SIDE_BY_SIDE: f32 = 480.0;
-/// Plots: one for each detector, and the tangent angle.
-const COUNT: usize = Method::ALL.len() + 1;
+/// From this width of each on the plots stand side by side.
+const SIDE_BY_SIDE: f32 = 260.0;
+/// In a frame, where scrolling is the host page's, from this width of each on before they would have to be scrolled.
+const FRAMED_SIDE_BY_SIDE: f32 = 160.0;
 /// Least heights of the plots when stacked, in points: of the first, of the others, and of the last.
 const LEAST: [f32; 3] = [128.0, 112.0, 84.0];
 /// Least height of the plots side by side.
@@ -53,7 +52,9 @@ pub struct PlotState {
     /// How high the detectors' plots reach, SI, and for which run and threshold.
     tops: BTreeMap<Method, ((u64, u64), f64)>,
     /// The plots as they were last laid out.
-    pictures: [Option<Picture<Key>>; COUNT],
+    pictures: Vec<Option<Picture<Key>>>,
+    /// The detectors that have plots, plot by plot, and in which version of the run.
+    judging: Option<(u64, Vec<Vec<Method>>)>,
     /// Distance from the pointer to what it holds when a drag starts, points.
     grip: f32,
     /// The times A and B, s; the page remembers them, not the plots.
@@ -87,23 +88,39 @@ enum Touch {
 /// Shows the plots in the space that is left. `version` is another for every other run; `cursor` is the playback position, s.
 pub fn plots(ui: &mut Ui, (run, version): (&Run, u64), cursor: f64, state: &mut PlotState, out: &mut Vec<Command>) {
     let space = ui.available_size();
-    let beside = space.x >= SIDE_BY_SIDE && !(space.y.is_finite() && space.y > 0.9 * space.x);
-    let stacked = least().iter().sum::<f32>() + (COUNT - 1) as f32 * GAP;
-    let beside = beside || state.framed && space.x >= FRAMED_SIDE_BY_SIDE && space.y < stacked;
+    let judging = match state.judging.take() {
+        Some((of, judging)) if of == version => judging,
+        _ => shown(run),
+    };
+    // Behind the detectors' plots, that of the tangent angle.
+    let count = judging.len() + 1;
+    let wide = |least: f32| space.x >= least * count as f32;
+    let beside = wide(SIDE_BY_SIDE) && !(space.y.is_finite() && space.y > 0.9 * space.x);
+    let stacked = least(count).iter().sum::<f32>() + (count - 1) as f32 * GAP;
+    let beside = beside || state.framed && wide(FRAMED_SIDE_BY_SIDE) && space.y < stacked;
     let least = if beside { LEAST_ROW } else { stacked };
     let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
     if space.y < least {
         let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);
-        area.show(ui, |ui| in_place(ui, size, beside, (run, version), cursor, state, out));
+        area.show(ui, |ui| in_place(ui, (size, beside), &judging, (run, version), cursor, state, out));
     } else {
-        in_place(ui, size, beside, (run, version), cursor, state, out);
+        in_place(ui, (size, beside), &judging, (run, version), cursor, state, out);
     }
+    state.judging = Some((version, judging));
+}
+
+/// The detectors that have plots in a run, plot by plot.
+fn shown(run: &Run) -> Vec<Vec<Method>> {
+    let mut plots = course::plots(run.judged.settings.thresholds.detectors);
+    plots.iter_mut().for_each(|methods| methods.retain(|&method| course::has_plot(run, method)));
+    plots.retain(|methods| !methods.is_empty());
+    plots
 }
 
 fn in_place(
     ui: &mut Ui,
-    size: Vec2,
-    beside: bool,
+    (size, beside): (Vec2, bool),
+    judging: &[Vec<Method>],
     (run, version): (&Run, u64),
     cursor: f64,
     state: &mut PlotState,
@@ -116,13 +133,15 @@ fn in_place(
     }
     let hovered = state.hover.take();
     let cursor = cursor.clamp(0.0, course::end(run));
-    let methods = Method::ALL.iter().copied().map(Some).chain([None]);
-    for ((which, rect), method) in layout(area, beside).into_iter().enumerate().zip(methods) {
-        let top = method.map(|method| top(state, (run, version), method));
-        let bare = !beside && which + 1 < COUNT;
+    let count = judging.len() + 1;
+    state.pictures.resize_with(count, || None);
+    for (which, rect) in layout(area, beside, count).into_iter().enumerate() {
+        let methods = judging.get(which).map(Vec::as_slice);
+        let top = methods.map(|methods| top(state, (run, version), methods));
+        let bare = !beside && which + 1 < count;
         let make = || {
-            let mut panel = match (method, top) {
-                (Some(method), Some(top)) => course::statistic(run, method, top),
+            let mut panel = match (methods, top) {
+                (Some(methods), Some(top)) => course::statistic(run, methods, top),
                 _ => course::angle(run),
             };
             panel.x.bare = bare;
@@ -138,11 +157,11 @@ fn in_place(
             let mut frame = Frame::new(
                 rect,
                 &place,
-                method.map_or(180.0 / std::f64::consts::PI, |m| course::measure(m).scale),
+                methods.and_then(|methods| methods.first()).map_or(180.0 / PI, |&m| course::measure(m).scale),
                 theme,
             );
             // In the corner of the card.
-            if which == if beside { COUNT - 1 } else { 0 } {
+            if which == if beside { count - 1 } else { 0 } {
                 let corner = pos2(rect.right() - 0.5 * save::BUTTON, rect.top() + 9.0);
                 let button = Rect::from_center_size(corner, Vec2::splat(save::BUTTON - 2.0));
                 save::menu_with(ui, button, Subject::Plots, state.marks.iter().all(Option::is_some), out);
@@ -151,8 +170,8 @@ fn in_place(
             let (state, out) = (&mut *state, &mut *out);
             let marks = state.marks;
             let mut view = View { run, cursor, marks, hovered, frame, place, picture, which, top, state, out };
-            match method {
-                Some(method) => panels::judging(ui, &mut view, method),
+            match methods {
+                Some(methods) => panels::judging(ui, &mut view, methods),
                 None => panels::angle(ui, &mut view),
             }
         }
@@ -160,22 +179,25 @@ fn in_place(
     }
 }
 
-/// How high the plot of a detector reaches, SI: as it did while its threshold is being moved.
-fn top(state: &mut PlotState, (run, version): (&Run, u64), method: Method) -> f64 {
-    if let Some(&held) = state.held.get(&method) {
+/// How high the plot of some detectors reaches, SI: as it did while a threshold of theirs is being moved.
+fn top(state: &mut PlotState, (run, version): (&Run, u64), methods: &[Method]) -> f64 {
+    if let Some(&held) = methods.iter().find_map(|method| state.held.get(method)) {
         return held;
     }
-    let otherwise = state.otherwise.get(&method).copied().unwrap_or(0.0);
-    let threshold = panels::threshold(method, run.plan.scenario(), otherwise);
-    let key = (version, threshold.to_bits());
-    match state.tops.get(&method) {
-        Some((of, top)) if *of == key => *top,
-        _ => {
-            let top = course::top(run, method, threshold);
-            state.tops.insert(method, (key, top));
-            top
+    let one = |&method: &Method| {
+        let otherwise = state.otherwise.get(&method).copied().unwrap_or(0.0);
+        let threshold = panels::threshold(method, run.plan.scenario(), otherwise);
+        let key = (version, threshold.to_bits());
+        match state.tops.get(&method) {
+            Some((of, top)) if *of == key => *top,
+            _ => {
+                let top = course::top(run, method, threshold);
+                state.tops.insert(method, (key, top));
+                top
+            }
         }
-    }
+    };
+    methods.iter().map(one).fold(0.0, f64::max)
 }
 
 /// One plot being shown.
@@ -211,7 +233,7 @@ impl View<'_> {
         }
     }
 
-    /// Whether the last curve, or what of it stands back, has any value.
+    /// Whether the last curves, or what of them stands back, have any value.
     fn has_values(&self) -> bool {
         let panel = self.picture.chart().panels.first();
         let mut last = panel.into_iter().flat_map(|panel| panel.series.iter().rev().take(2));
@@ -224,29 +246,31 @@ impl View<'_> {
     }
 }
 
-/// Least heights of the plots when stacked, points.
-fn least() -> [f32; COUNT] {
-    std::array::from_fn(|k| LEAST[if k == 0 { 0 } else { 1 + usize::from(k + 1 == COUNT) }])
+/// Least heights of so many plots when stacked, points.
+fn least(count: usize) -> Vec<f32> {
+    let kind = |k: usize| if k + 1 == count { 2 } else { usize::from(k > 0) };
+    (0..count).map(|k| LEAST[kind(k)]).collect()
 }
 
-/// Places of the plots: a row, or a column in which the first is highest.
-fn layout(area: Rect, beside: bool) -> [Rect; COUNT] {
-    let gaps = (COUNT - 1) as f32 * GAP;
+/// Places of so many plots: a row, or a column in which the first is highest.
+fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
+    let gaps = count.saturating_sub(1) as f32 * GAP;
     if beside {
-        let width = (area.width() - gaps) / COUNT as f32;
-        std::array::from_fn(|i| {
-            Rect::from_min_size(pos2(area.left() + i as f32 * (width + GAP), area.top()), vec2(width, area.height()))
-        })
+        let width = (area.width() - gaps) / count as f32;
+        let place = |k: usize| pos2(area.left() + k as f32 * (width + GAP), area.top());
+        (0..count).map(|k| Rect::from_min_size(place(k), vec2(width, area.height()))).collect()
     } else {
-        let total: f32 = least().iter().sum();
+        let least = least(count);
+        let total: f32 = least.iter().sum();
         let usable = area.height() - gaps;
         let mut top = area.top();
-        least().map(|least| {
+        let place = |least: f32| {
             let height = usable * least / total;
             let rect = Rect::from_min_size(pos2(area.left(), top), vec2(area.width(), height));
             top += height + GAP;
             rect
-        })
+        };
+        least.into_iter().map(place).collect()
     }
 }
 
@@ -257,15 +281,15 @@ mod tests {
     #[test]
     fn plots_share_their_edges_and_do_not_overlap() {
         let area = Rect::from_min_size(pos2(10.0, 20.0), vec2(390.0, 500.0));
-        for beside in [false, true] {
-            let rects = layout(area, beside);
-            assert!(rects.iter().all(|rect| area.expand(0.01).contains_rect(*rect)));
-            assert!(!rects[0].intersects(rects[1]) && !rects[1].intersects(rects[2]));
+        for (beside, count) in [(false, 1), (true, 1), (false, 3), (true, 3), (false, 6), (true, 6)] {
+            let rects = layout(area, beside, count);
+            assert!(rects.len() == count && rects.iter().all(|rect| area.expand(0.01).contains_rect(*rect)));
+            assert!(rects.windows(2).all(|two| !two[0].intersects(two[1])));
             if beside {
                 assert!(rects.iter().all(|rect| rect.y_range() == area.y_range()));
             } else {
                 assert!(rects.iter().all(|rect| rect.x_range() == area.x_range()));
-                assert!(rects[0].height() > rects[2].height());
+                assert!(count == 1 || rects[0].height() > rects[count - 1].height());
             }
         }
     }

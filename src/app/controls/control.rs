@@ -176,7 +176,7 @@ impl Control {
     }
 }
 
-/// Options of which one holds.
+/// Options of which one holds, or any where the key holds several words.
 #[derive(Debug)]
 pub struct Choice {
     /// What it sets.

@@ -8,7 +8,7 @@ use crate::app::theme::Theme;
 use crate::app::widgets::field::{Field, field};
 use crate::app::widgets::icon::{self, Icon};
 use crate::app::widgets::rail::Rail;
-use crate::app::widgets::segmented::segmented;
+use crate::app::widgets::segmented::{segmented, several};
 use crate::app::widgets::slider::{Slider, slider};
 use crate::app::widgets::text;
 use crate::app::widgets::toggle::toggle;
@@ -18,6 +18,8 @@ use centrode_core::scenario::Scenario;
 const HEIGHTS: (f32, f32) = (24.0, 19.0);
 const TOUCH: (f32, f32) = (32.0, 30.0);
 const FIELD: f32 = 84.0;
+/// So many options of which any can hold stand in a row.
+const IN_A_ROW: usize = 3;
 
 /// What a row needs to know besides its control.
 pub struct Context<'a> {
@@ -106,15 +108,21 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
 pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: &mut Vec<Command>) {
     let width = ui.available_width();
     let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
-    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + 28.0), Sense::hover());
+    let rows = if choice.of.is_words() { choice.options.len().div_ceil(IN_A_ROW) } else { 1 };
+    let height = 28.0 * rows as f32;
+    let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     if heading(ui, line, choice.of.path, choice.label, choice.tip(), choice.differs(context.scenario, context.base)) {
         out.push(Command::ResetChoice(choice));
     }
-    let place = Rect::from_min_size(line.left_bottom(), vec2(width, 28.0));
-    if let Some(option) = segmented(ui, place, choice.label, choice.options, choice.of.chosen(context.scenario)) {
-        out.push(Command::Pick(choice, option));
-    }
+    let place = Rect::from_min_size(line.left_bottom(), vec2(width, height));
+    let picked = if choice.of.is_words() {
+        let holds = |option| choice.of.holds(context.scenario, option);
+        several(ui, place, choice.label, (choice.options, IN_A_ROW), holds)
+    } else {
+        segmented(ui, place, choice.label, choice.options, choice.of.chosen(context.scenario))
+    };
+    out.extend(picked.map(|option| Command::Pick(choice, option)));
     if let Some(note) = context.note {
         refusal(ui, note);
     }

@@ -5,7 +5,7 @@ use crate::app::controls::control::{Choice, Control, Group, Scale, Words};
 use crate::app::controls::{contact, span};
 use Scale::{Linear, Log, LogWhole, Stops, Whole};
 use centrode_core::scenario::keys::{self, Key};
-use centrode_core::scenario::{ContactKind, Scenario};
+use centrode_core::scenario::{ContactKind, Method, Scenario};
 
 mod forces;
 
@@ -70,6 +70,14 @@ const THRESHOLDS: &[Control] = &[
     row("detection.armed_from", "Armed from", 2, Linear(0.05)),
     row("detection.release", "Release", 0, Linear(1.0)),
     row("detection.hold", "Hold", 2, Linear(0.01)),
+    row("detection.consistent", "ξf (consistent centrode)", 2, Linear(0.05))
+        .only_for("", |scenario| scenario.detection.detectors.has(Method::FcdConsistent)),
+    row("detection.velocity", "ξv (velocity)", 2, Linear(0.05))
+        .only_for("", |scenario| scenario.detection.detectors.has(Method::FcdVelocity)),
+    row("detection.cusum", "h (CUSUM)", 2, Linear(0.05))
+        .only_for("", |scenario| scenario.detection.detectors.has(Method::Cusum)),
+    row("detection.glr", "hΛ (GLR)", 2, Linear(0.05))
+        .only_for("", |scenario| scenario.detection.detectors.has(Method::Glr)),
 ];
 
 const MOTION: &[Control] = &[
@@ -172,7 +180,8 @@ mod tests {
     #[test]
     fn a_choice_has_an_option_for_each_word() {
         for choice in GROUPS.iter().flat_map(|group| group.choices) {
-            assert_eq!(choice.options.len(), choice.of.words().len(), "{}", choice.of.path);
+            let words = choice.of.words().len() + choice.of.any_of().len();
+            assert_eq!(choice.options.len(), words, "{}", choice.of.path);
         }
     }
 

@@ -1,4 +1,4 @@
-//! A row of options of which one holds.
+//! A row of options of which one holds, or any.
 
 use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
 
@@ -23,6 +23,28 @@ pub fn segmented(ui: &mut Ui, rect: Rect, label: &str, options: &[&str], chosen:
     segments(ui, rect, (label, Role::RadioButton), &options, chosen)
 }
 
+/// Shows options any of which can hold, with at most `most` in a row; returns the one that was clicked.
+pub fn several(
+    ui: &mut Ui,
+    rect: Rect,
+    label: &str,
+    (options, most): (&[&str], usize),
+    holds: impl Fn(usize) -> bool,
+) -> Option<usize> {
+    let options: Vec<_> = options.iter().map(|text| Segment { text, name: text, hint: "" }).collect();
+    let rows = options.chunks(most.max(1));
+    let height = rect.height() / rows.len().max(1) as f32;
+    let mut clicked = None;
+    for (k, row) in rows.enumerate() {
+        let place = Rect::from_min_size(rect.min + vec2(0.0, height * k as f32), vec2(rect.width(), height));
+        let first = k * most;
+        let name = format!("{label} {k}");
+        let place = place.shrink2(vec2(0.0, 1.0));
+        clicked = parts(ui, place, (&name, Role::CheckBox), row, |i| holds(first + i)).map(|i| first + i).or(clicked);
+    }
+    clicked
+}
+
 /// The same, with what each option is to assistive technology.
 pub fn segments(
     ui: &mut Ui,
@@ -30,6 +52,16 @@ pub fn segments(
     (label, role): (&str, Role),
     options: &[Segment<'_>],
     chosen: usize,
+) -> Option<usize> {
+    parts(ui, rect, (label, role), options, |i| i == chosen)
+}
+
+fn parts(
+    ui: &mut Ui,
+    rect: Rect,
+    (label, role): (&str, Role),
+    options: &[Segment<'_>],
+    holds: impl Fn(usize) -> bool,
 ) -> Option<usize> {
     let theme = Theme::of(ui);
     ui.painter().rect_filled(rect, 7.0, theme.raised);
@@ -39,7 +71,7 @@ pub fn segments(
         let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height())).shrink(2.0);
         let id = ui.make_persistent_id(("segment", label, i));
         let response = ui.interact(part, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
-        let held = i == chosen;
+        let held = holds(i);
         response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), held, option.name));
         if held {
             let fill = if theme.dark { theme.faint } else { theme.panel };

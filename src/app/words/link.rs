@@ -37,6 +37,7 @@ fn used((key, value): &(&'static str, Value)) -> String {
     let quantity = keys::find(key).map(|key| key.quantity).or_else(page).unwrap_or(Quantity::Word);
     let shown = match value {
         Value::Word(word) => (*word).into(),
+        Value::Words(words) => words.join(", "),
         Value::Off => "off".into(),
         other => other.told(quantity, Units::Shown),
     };

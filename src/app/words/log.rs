@@ -9,7 +9,7 @@ use centrode_core::detect::outlook::Outlook;
 use centrode_core::record::log::{Column, Commands};
 use centrode_core::run::Run;
 use centrode_core::scenario::text;
-use centrode_core::study::course::measure;
+use centrode_core::study::course::{has_plot, measure};
 
 /// What only a simulation knows.
 const NO_TRUTH: &str = "A log does not say when contact began, where it was, or which shape the robot truly had. Delays, errors of \
@@ -22,21 +22,26 @@ fn outlook(recorded: &Recorded, method: Method) -> Option<&Outlook> {
 
 /// What a detector made of a log.
 fn detector(run: &Run, recorded: &Recorded, method: Method) -> String {
-    let (name, key) = match method {
-        Method::Fcd => ("The centrode", "ξ2"),
-        Method::Jfd => ("Joint forces", "ξ1"),
+    let (name, within) = match method {
+        Method::Fcd => ("The centrode", "the centrode"),
+        Method::Jfd => ("Joint forces", "joint forces"),
+        Method::FcdConsistent => ("The consistent centrode", "the consistent centrode"),
+        Method::FcdVelocity => ("The velocity", "the velocity"),
+        Method::Cusum => ("CUSUM", "CUSUM"),
+        Method::Glr => ("GLR", "GLR"),
     };
     if let Some(outlook) = outlook(recorded, method).filter(|outlook| !outlook.works) {
         return format!("{name} raised no alarm: {}.", outlook.why);
     }
     let thresholds = &run.plan.scenario().detection;
-    let off = match method {
-        Method::Fcd => thresholds.xi2.value().is_none(),
-        Method::Jfd => thresholds.xi1.value().is_none(),
-    };
+    if !thresholds.detectors.has(method) {
+        return format!("{} is not switched on, so {within} raised no alarm.", method.key().to_uppercase());
+    }
+    let (off, key) = (thresholds.of(method).value().is_none(), measure(method).threshold.replace('_', ""));
     let events = || run.events().iter().filter(|event| event.detector == method);
     match (off, events().next()) {
-        (true, _) => format!("{key} is off, so {} raised no alarm.", name.to_lowercase()),
+        (true, _) => format!("{key} is off, so {within} raised no alarm."),
+        (false, None) if !thresholds.waits(method) => format!("{name} raised no alarm."),
         (false, None) => {
             format!("{name} raised no alarm from {} s on.", number(thresholds.armed_from, 2))
         }
@@ -56,17 +61,22 @@ fn detector(run: &Run, recorded: &Recorded, method: Method) -> String {
     }
 }
 
-/// A log in a sentence: what the centrode made of it, or where it cannot judge, the joint forces.
+/// A log in a sentence: what the centrode made of it, or where it cannot judge, the next detector.
 #[must_use]
 pub fn sentence(run: &Run, recorded: &Recorded) -> String {
-    let works = outlook(recorded, Method::Fcd).is_none_or(|outlook| outlook.works);
-    detector(run, recorded, if works { Method::Fcd } else { Method::Jfd })
+    let detectors = run.plan.scenario().detection.detectors;
+    let works = |&method: &Method| outlook(recorded, method).is_none_or(|outlook| outlook.works);
+    // Of those that judge, the first that works.
+    let told = detectors.iter().find(works).or_else(|| detectors.iter().next());
+    detector(run, recorded, told.unwrap_or(Method::Fcd))
 }
 
-/// A log in words: both methods, and what is not known.
+/// A log in words: the detectors that judge, and what is not known.
 #[must_use]
 pub fn words(run: &Run, recorded: &Recorded) -> String {
-    let all: Vec<String> = Method::ALL.iter().map(|method| detector(run, recorded, *method)).collect();
+    let detectors = run.plan.scenario().detection.detectors;
+    let shown = detectors.iter().filter(|&method| has_plot(run, method));
+    let all: Vec<String> = shown.map(|method| detector(run, recorded, method)).collect();
     format!("{} A log does not say whether anything touched the robot.", all.join(" "))
 }
 
@@ -99,11 +109,11 @@ pub fn facts(recorded: &Recorded) -> String {
     )
 }
 
-/// What a log lacks; empty for nothing.
+/// What a log lacks for the paper's detectors; empty for nothing.
 #[must_use]
 pub fn missing(recorded: &Recorded) -> String {
-    let whys: Vec<&str> =
-        recorded.about.detectors.iter().map(|outlook| outlook.why.as_str()).filter(|why| !why.is_empty()).collect();
+    let paper = recorded.about.detectors.iter().filter(|outlook| outlook.detector.is_of_paper());
+    let whys: Vec<&str> = paper.map(|outlook| outlook.why.as_str()).filter(|why| !why.is_empty()).collect();
     whys.join(" · ")
 }
 

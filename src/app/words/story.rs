@@ -105,8 +105,11 @@ fn seconds(duration: f64) -> String {
 
 /// What the centrode's deviation made of the run.
 fn centrode(run: &Run) -> String {
-    let off = "ξ2 is off, so the centrode raised no alarm.";
-    let xi2 = run.plan.scenario().detection.xi2.value();
+    let detection = &run.plan.scenario().detection;
+    let judges = detection.detectors.has(Method::Fcd);
+    let off =
+        format!("{}, so the centrode raised no alarm.", if judges { "ξ2 is off" } else { "FCD is not switched on" });
+    let xi2 = detection.xi2.value().filter(|_| judges);
     match (run.contact_time(), run.detection()) {
         (None, None) => {
             let beam = run.plan.contact().is_some();
@@ -172,6 +175,9 @@ fn joint_alarm(run: &Run) -> Option<&Event> {
 
 /// What the joint forces made of it.
 fn joint_forces(run: &Run) -> String {
+    if !run.plan.scenario().detection.detectors.has(Method::Jfd) {
+        return "JFD is not switched on, so joint forces raised no alarm.".into();
+    }
     if run.plan.scenario().detection.xi1.value().is_none() {
         return "ξ1 is off, so joint forces raised no alarm.".into();
     }

@@ -70,6 +70,8 @@ pub enum Allowed {
     Whole(u64, u64),
     /// One of these words.
     Words(&'static [&'static str]),
+    /// Any of these words, each at most once.
+    Some(&'static [&'static str]),
     /// A number of 0 or more, or the word `off`.
     Threshold,
     /// Three numbers, each at most this far from 0.
@@ -152,10 +154,8 @@ impl Allowed {
             Self::Range(least, most) => range(least, most, quantity, units),
             Self::Whole(least, u64::MAX) => format!("a whole number, {least} or more"),
             Self::Whole(least, most) => format!("a whole number from {least} to {most}"),
-            Self::Words(words) => {
-                let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
-                words.join(" or ")
-            }
+            Self::Words(words) => quoted(words, " or "),
+            Self::Some(words) => format!("a list of any of {}, each at most once", quoted(words, ", ")),
             Self::Threshold => format!("a finite number, {} or more, or \"off\"", amount(0.0)),
             Self::Vector(most) => format!("three numbers, [x, y, z], each from {} to {}", amount(-most), amount(most)),
             Self::Disks => "a list of arc lengths in rising order, each above 0 and at most robot.length".into(),
@@ -207,6 +207,11 @@ impl Allowed {
             Self::Need(words) => words.into(),
         }
     }
+}
+
+fn quoted(words: &[&str], between: &str) -> String {
+    let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    words.join(between)
 }
 
 fn turn(units: Units) -> &'static str {

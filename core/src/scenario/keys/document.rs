@@ -39,7 +39,9 @@ fn meaning(key: &Key) -> String {
     let mut text = key.sentence.to_owned();
     match key.allowed {
         Allowed::Threshold => text += " Or \"off\".",
-        Allowed::Words(_) => text = format!("{}. {text}", key.allowed.words(key.quantity, Units::Si)),
+        Allowed::Words(_) | Allowed::Some(_) => {
+            text = format!("{}. {text}", key.allowed.words(key.quantity, Units::Si))
+        }
         _ => {}
     }
     if let Some((other, _)) = key.instead_of {

@@ -22,6 +22,8 @@ pub enum Quantity {
     Frequency,
     /// An angular speed: rad/s, shown in °/s.
     AngularSpeed,
+    /// A speed: m/s, shown in mm/s.
+    Speed,
     /// A modulus of elasticity: Pa, shown in GPa.
     Modulus,
     /// A number without unit.
@@ -67,6 +69,7 @@ impl Quantity {
             Self::Force => &[Unit("N", 1.0, 1.0), Unit("mN", 1.0, 1e3)],
             Self::Frequency => &[Unit("Hz", 1.0, 1.0), Unit("kHz", 1e3, 1.0)],
             Self::AngularSpeed => &[Unit("°/s", PI, 180.0), Unit("deg/s", PI, 180.0), Unit("rad/s", 1.0, 1.0)],
+            Self::Speed => &[Unit("mm/s", 1.0, 1e3), Unit("cm/s", 1.0, 1e2), Unit("m/s", 1.0, 1.0)],
             Self::Modulus => &[Unit("GPa", 1e9, 1.0), Unit("MPa", 1e6, 1.0), Unit("Pa", 1.0, 1.0)],
             Self::Count | Self::Word => &[Unit("", 1.0, 1.0)],
         }

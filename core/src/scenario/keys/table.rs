@@ -1,14 +1,13 @@
 //! The table itself, in the order of the file.
 
 mod calibration;
+mod detection;
 mod experiment;
 
-use crate::scenario::keys::allowed::NOT_NEGATIVE;
-use crate::scenario::keys::entry::{between, either, key, number, one_of, threshold, whole};
-use crate::scenario::keys::quantity::Quantity::{AngularSpeed, Count, Length, Moment, Ratio, Time, Word};
+use crate::scenario::keys::entry::{between, either, key, one_of, whole};
+use crate::scenario::keys::quantity::Quantity::{Count, Word};
 use crate::scenario::keys::{Access, Allowed, Key};
-use crate::scenario::{Averaging, EstimationKind, Scenario, Xi1Rule};
-use std::f64::consts::PI;
+use crate::scenario::{Averaging, EstimationKind, Scenario};
 
 /// Keys that belong together.
 #[derive(Debug, Clone, Copy)]
@@ -31,7 +30,7 @@ pub const GROUPS: &[Group] = &[
     Group { path: "load", sentence: "A wrench on the end disk, which ramps up and then stays constant." },
     Group { path: "calibration", sentence: "How the true robot differs from its model." },
     Group { path: "filter", sentence: "The moving average over the tracker's readings." },
-    Group { path: "detection", sentence: "Thresholds, and when they apply." },
+    Group { path: "detection", sentence: "The detectors, their thresholds, and when they apply." },
     Group { path: "estimation", sentence: "How a contact is placed." },
 ];
 
@@ -39,8 +38,6 @@ const DIAMETERS: Allowed = between(1e-6, 1.0);
 const MODULI: Allowed = between(1e6, 1e13);
 /// From 0 to the end of the run.
 const RUN: fn(&Scenario) -> (f64, f64) = |s| (0.0, s.motion.end);
-/// 10°/s.
-const FAST: f64 = PI / 18.0;
 
 /// Everything that can be set; the keys of a group stand together.
 pub const KEYS: &[Key] = &ALL;
@@ -80,69 +77,20 @@ const JUDGING: &[Key] = &[
         either!(filter.averaging, Averaging::Readings, Averaging::Rotations),
         "Average the six readings one by one, as in the paper, or the rotations themselves.",
     ),
-    key(
-        "detection.xi1",
-        Moment,
-        Allowed::Threshold,
-        threshold!(detection.xi1),
-        "Alarm when the joint force deviation Θ exceeds this.",
-    )
-    .usual_range(0.0, 0.1)
-    .illustrative(),
-    key(
-        "detection.xi1_rule",
-        Word,
-        Allowed::Words(&["constant", "bound"]),
-        either!(detection.xi1_rule, Xi1Rule::Constant, Xi1Rule::Bound),
-        "Whether ξ1 is a constant, or k times the bound ε_c at the commanded shape.",
-    )
-    .illustrative(),
-    key(
-        "detection.xi1_factor",
-        Count,
-        NOT_NEGATIVE,
-        number!(detection.xi1_factor),
-        "k, where ξ1 is k times the bound ε_c at the commanded shape. Below 1, friction alone can raise an alarm.",
-    )
-    .usual_range(0.0, 5.0)
-    .illustrative(),
-    key(
-        "detection.xi2",
-        Length,
-        Allowed::Threshold,
-        threshold!(detection.xi2),
-        "Alarm when the sensor's centrode is farther than this from the model's.",
-    )
-    .usual_range(0.0, 0.020),
-    key(
-        "detection.armed_from",
-        Time,
-        NOT_NEGATIVE,
-        number!(detection.armed_from),
-        "No alarm is raised before this time.",
-    )
-    .usual_of(RUN),
-    key(
-        "detection.min_speed",
-        AngularSpeed,
-        NOT_NEGATIVE,
-        number!(detection.min_speed),
-        "Centrodes are judged only while the end disk turns faster than this.",
-    )
-    .usual_range(0.0, FAST)
-    .illustrative(),
-    key(
-        "detection.release",
-        Ratio,
-        between(0.0, 1.0),
-        number!(detection.release),
-        "An event is cleared once its value has stayed at or below this share of the threshold for detection.hold.",
-    )
-    .usual_range(0.0, 1.0)
-    .illustrative(),
-    key("detection.hold", Time, NOT_NEGATIVE, number!(detection.hold), "How long the value must stay low to clear an event; no event is shorter.")
-        .usual_range(0.0, 2.0)
-        .illustrative(),
+    detection::DETECTORS,
+    detection::XI1,
+    detection::XI1_RULE,
+    detection::XI1_FACTOR,
+    detection::XI2,
+    detection::CONSISTENT,
+    detection::VELOCITY,
+    detection::CUSUM,
+    detection::GLR,
+    detection::ARMED_FROM,
+    detection::ARMING,
+    detection::MIN_SPEED,
+    detection::RELEASE,
+    detection::HOLD,
     key(
         "estimation.kind",
         Word,

@@ -12,6 +12,8 @@ pub enum Value {
     Whole(u64),
     /// One of the words that the key knows.
     Word(&'static str),
+    /// Some of the words that the key knows.
+    Words(Vec<&'static str>),
     /// A threshold that is switched off.
     Off,
     /// Several numbers.
@@ -41,6 +43,10 @@ impl Value {
             Self::Number(value) => number(*value),
             Self::Whole(value) => value.to_string(),
             Self::Word(word) => format!("\"{word}\""),
+            Self::Words(words) => {
+                let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
+                format!("[{}]", words.join(", "))
+            }
             Self::Off => "\"off\"".into(),
             Self::List(values) => format!("[{}]", values.iter().map(|&v| number(v)).collect::<Vec<_>>().join(", ")),
             Self::Other(text) => text.clone(),

@@ -61,6 +61,7 @@ fn toml(value: &Value) -> String {
     match value {
         Value::Number(value) => number(*value),
         Value::List(values) => format!("[{}]", values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(",")),
+        Value::Words(words) if words.is_empty() => "[]".into(),
         other => super::written(other),
     }
 }

@@ -306,7 +306,7 @@ fn toml_of(key: &Key, text: &str) -> toml::Value {
         (_, Ok(number)) => toml::Value::Float(number),
         _ => toml::Value::String(clipped(text)),
     };
-    if !key.is_list() {
+    if !key.is_list() && !key.is_words() {
         one(text)
     } else if text.is_empty() {
         toml::Value::Array(Vec::new())

@@ -1,6 +1,6 @@
 //! Two instants of a run held against each other: what was judged then, and the tangent angle.
 
-use super::{Measure, curves, measure};
+use super::{Measure, curves, has_plot, measure};
 use crate::chart::notation::{number, runs};
 use crate::detect::Method;
 use crate::run::Run;
@@ -38,7 +38,8 @@ impl Reading {
     }
 }
 
-/// What the detectors judged at two times (s), in the order of their plots, and at last the tangent angle.
+/// What the detectors that judge said at two times (s), and at last the tangent angle. Those that are not the paper's are left out
+/// where they have no value in the whole run.
 ///
 /// ```
 /// use centrode_core::run::simulate;
@@ -55,7 +56,7 @@ impl Reading {
 pub fn between(run: &Run, times: [f64; 2]) -> Vec<Reading> {
     let samples = times.map(|time| run.sample_at(time));
     let thresholds = &run.judged.settings.thresholds;
-    let judged = |&method: &Method| {
+    let judged = |method: Method| {
         let Measure { symbol, unit, scale, decimals, .. } = measure(method);
         let curve = curves(method, thresholds).into_iter().next()?;
         let values = [0, 1].map(|k| (curve.value)(&samples[k], thresholds) * scale);
@@ -63,7 +64,8 @@ pub fn between(run: &Run, times: [f64; 2]) -> Vec<Reading> {
     };
     let bend = samples.map(|sample| sample.theta_l.to_degrees());
     let angle = Reading { symbol: "θ_L", unit: "°", decimals: 2, values: bend };
-    Method::ALL.iter().filter_map(judged).chain([angle]).collect()
+    let shown = thresholds.detectors.iter().filter(|&method| has_plot(run, method));
+    shown.filter_map(judged).chain([angle]).collect()
 }
 
 /// The same as a table whose cells are parted by tabs, with the times first.
@@ -93,13 +95,14 @@ mod tests {
         let run = simulate(&find("bench").and_then(|preset| preset.scenario()).expect("a preset")).expect("a run");
         let found = run.detection().expect("detected").time;
         let readings = between(&run, [5.5, found]);
-        assert_eq!(readings.len(), Method::ALL.len() + 1);
+        let shown = run.judged.settings.thresholds.detectors.iter().filter(|&method| has_plot(&run, method));
+        assert_eq!(readings.len(), shown.count() + 1);
         let centrode = readings[0];
         assert_eq!(centrode.values[1], run.sample_at(found).judgement.deviation * 1e3);
         assert!(centrode.change() > 3.0 && centrode.told().starts_with('+') && centrode.told().ends_with(" mm"));
         let text = table(&run, [5.5, found]);
         let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split('\t').collect()).collect();
-        assert!(rows.len() == 5 && rows.iter().all(|row| row.len() == 4), "{text}");
+        assert!(rows.len() == readings.len() + 2 && rows.iter().all(|row| row.len() == 4), "{text}");
         assert_eq!(rows[1], ["t (s)", "5.500", &number(found, 3), &number(found - 5.5, 3)]);
         assert_eq!(rows[2][0], "‖cm − cs‖ (mm)");
     }

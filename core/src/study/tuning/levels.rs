@@ -24,12 +24,12 @@ impl Levels {
     pub fn usual(scenario: &Scenario) -> Self {
         let segment = scenario.robot.segment();
         let moment = segment.energy_gradient(&Configuration::new(1.0, 0.0)).theta_l.abs();
-        let step = |detector| match (detector, scenario.detection.xi1_rule) {
-            (Method::Fcd, _) => round_unit(segment.length / 300.0),
-            (Method::Jfd, Xi1Rule::Constant) => round_unit(moment / 100.0),
-            (Method::Jfd, Xi1Rule::Bound) => (5, -2),
+        let xi1 = match scenario.detection.xi1_rule {
+            Xi1Rule::Constant => round_unit(moment / 100.0),
+            Xi1Rule::Bound => (5, -2),
         };
-        Self(Method::ALL.iter().map(|&detector| (detector, rising(step(detector)))).collect())
+        let steps = [(Method::Fcd, round_unit(segment.length / 300.0)), (Method::Jfd, xi1)];
+        Self(steps.map(|(detector, step)| (detector, rising(step))).into())
     }
 
     /// The levels of a detector; empty where it has none.

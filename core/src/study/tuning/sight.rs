@@ -59,6 +59,8 @@ impl<'a> Sight<'a> {
                 let residual = |tau_lc| expected.residual(self.plan.segment(), &step.configuration, tau_lc);
                 (self.tau_lc.as_ref().map(residual).or(self.shared.residual(k)).unwrap_or(f64::NAN), 0.0)
             }
+            // No rule looks at them.
+            Method::FcdConsistent | Method::FcdVelocity | Method::Cusum | Method::Glr => (f64::NAN, 0.0),
         };
         Statistic { value, standing: detector.standing(value, speed, step.time, thresholds) }
     }

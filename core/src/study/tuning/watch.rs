@@ -15,9 +15,9 @@ pub enum Rule {
     Fcd,
     /// By the joint force deviation above ξ1.
     Jfd,
-    /// By any detector; levels are those of ξ2, the other thresholds are the scenario's.
+    /// By either of the paper's detectors; levels are those of ξ2, the other thresholds are the scenario's.
     Or,
-    /// By all detectors at one instant; levels are those of ξ2, the other thresholds are the scenario's.
+    /// By both of the paper's detectors at one instant; levels are those of ξ2, the other thresholds are the scenario's.
     And,
 }
 
@@ -52,8 +52,8 @@ impl Rule {
         match self {
             Self::Fcd => (Wants::Any, &[Detector::Fcd]),
             Self::Jfd => (Wants::Any, &[Detector::Jfd]),
-            Self::Or => (Wants::Any, Detector::ALL),
-            Self::And => (Wants::All, Detector::ALL),
+            Self::Or => (Wants::Any, Detector::PAPER),
+            Self::And => (Wants::All, Detector::PAPER),
         }
     }
 
@@ -94,9 +94,9 @@ impl Rule {
 /// Thresholds in which nothing is left that matters to the first alarms of no rule.
 #[must_use]
 pub fn of_any_rule(thresholds: &Thresholds) -> Thresholds {
-    // What ends an event does not matter to the first.
-    let Thresholds { release, hold, .. } = Thresholds::default();
-    let mut left = Thresholds { release, hold, ..thresholds.clone() };
+    // What ends an event does not matter to the first; and rules look at their own detectors, whichever judge.
+    let Thresholds { release, hold, detectors, arming, .. } = Thresholds::default();
+    let mut left = Thresholds { release, hold, detectors, arming, ..thresholds.clone() };
     for detector in Detector::ALL {
         if Rule::ALL.iter().any(|rule| rule.fixed().contains(detector)) {
             detector.tidy(&mut left);
@@ -165,7 +165,8 @@ impl<'a> Watch<'a> {
             unit: 1.0,
             above: false,
         };
-        let place = |detector: Detector| Detector::ALL.iter().position(|&known| known == detector).unwrap_or_default();
+        let place =
+            |detector: Detector| Detector::PAPER.iter().position(|&known| known == detector).unwrap_or_default();
         let mark = |rule: &Rule| Mark {
             wants: rule.alarm().0,
             swept: place(rule.swept()),
@@ -175,7 +176,7 @@ impl<'a> Watch<'a> {
         let levels: Vec<_> = Rule::ALL.iter().map(|rule| rule.levels(levels)).collect();
         Self {
             thresholds,
-            lamps: Detector::ALL.iter().map(lamp).collect(),
+            lamps: Detector::PAPER.iter().map(lamp).collect(),
             marks: Rule::ALL.iter().map(mark).collect(),
             alarms: levels.iter().map(|levels| vec![NEVER; levels.len()]).collect(),
             levels,
@@ -229,7 +230,7 @@ pub fn first_alarms(plan: &Plan, levels: &Levels, shared: &Shared) -> Firsts {
 mod tests {
     use super::*;
     use crate::detect::Standing;
-    use crate::scenario::{Scenario, Threshold};
+    use crate::scenario::{Arming, Detectors, Scenario, Threshold};
 
     #[test]
     fn any_and_all_are_made_of_what_each_detector_sees() {
@@ -264,10 +265,14 @@ mod tests {
         let xi1 = Thresholds { xi1: Threshold::On(0.05), xi1_factor: 3.0, hold: 1.0, ..before.clone() };
         let xi2 = Thresholds { xi2: Threshold::On(0.001), ..before.clone() };
         let speed = Thresholds { min_speed: 0.1, ..before.clone() };
+        let mut others = Thresholds { detectors: Detectors::NONE, arming: Arming::All, ..before.clone() };
+        for &detector in Detector::ALL.iter().filter(|detector| !detector.is_of_paper()) {
+            *others.of_mut(detector) = Threshold::OFF;
+        }
         for &rule in Rule::ALL {
             let same = |other: &Thresholds| rule.matters(other) == rule.matters(&before);
             assert_eq!(same(&xi1), matches!(rule, Rule::Fcd | Rule::Jfd), "{rule:?}");
-            assert!(same(&xi2) && !same(&speed), "{rule:?}");
+            assert!(same(&xi2) && same(&others) && !same(&speed), "{rule:?}");
         }
     }
 }

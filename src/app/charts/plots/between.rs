@@ -61,12 +61,12 @@ impl View<'_> {
         }
     }
 
-    /// Says by how much the plot's value changes between both marks.
-    pub fn change(&self, painter: &Painter) {
+    /// Says by how much the plot's value, which has this symbol, changes between both marks.
+    pub fn change(&self, painter: &Painter, symbol: &str) {
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let [Some(a), Some(b)] = self.marks else { return };
         let readings = between(self.run, [a, b]);
-        let Some(reading) = readings.get(self.which) else { return };
+        let Some(reading) = readings.iter().find(|reading| reading.symbol == symbol) else { return };
         let mut lines = vec![job(&format!("Δ {}", reading.told()), SMALL + 1.0, theme.ink)];
         if self.which == 0 {
             let [a, b] = [a, b].map(|at| self.run.sample_at(at).time);

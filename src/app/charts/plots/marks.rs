@@ -72,8 +72,8 @@ impl View<'_> {
         (galley, rect)
     }
 
-    /// When the detection is, in words beside its line.
-    pub fn detection_label(&self, painter: &Painter) {
+    /// When the detection is, in words beside its line; where the plot says when arming is, not over that.
+    pub fn detection_label(&self, painter: &Painter, says: bool) {
         let Some(detection) = &self.run.detection() else { return };
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let x = self.frame.time.at(detection.time);
@@ -82,7 +82,8 @@ impl View<'_> {
         let right = x + 6.0 + galley.size().x <= data.right() + 4.0;
         let at = if right { x + 6.0 } else { x - 8.0 - galley.size().x };
         let armed = self.armed_label(painter, theme.dim).1.expand2(vec2(3.0, 1.0));
-        let rect = above(Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size()), armed);
+        let rect = Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size());
+        let rect = if says { above(rect, armed) } else { rect };
         painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 3.0, theme.panel.gamma_multiply(0.9));
         painter.galley(rect.min, galley, theme.detection);
     }
@@ -111,7 +112,7 @@ impl View<'_> {
 /// An event in words: which detector raised it when, over which threshold, and when it was cleared.
 fn told(event: &Event) -> [String; 3] {
     let Measure { detector, symbol, threshold, scale, unit, decimals, .. } = measure(event.detector);
-    let shown = |value: f64| format!("{} {unit}", number(value * scale, decimals));
+    let shown = |value: f64| format!("{} {unit}", number(value * scale, decimals)).trim_end().to_owned();
     let cleared =
         event.cleared.map_or("not cleared by the end".into(), |at| format!("cleared at {}", Frame::clock(at)));
     [

@@ -19,18 +19,7 @@ use egui::{Color32, Ui};
 /// The threshold of a detector as a plot's line sets it: what it is, and whether it judges or something else in its place.
 fn set(method: Method, scenario: &Scenario) -> (Threshold, bool) {
     let detection = &scenario.detection;
-    match method {
-        Method::Fcd => (detection.xi2, true),
-        Method::Jfd => (detection.xi1, detection.xi1_rule == Xi1Rule::Constant),
-    }
-}
-
-/// What sets it.
-fn change(method: Method, to: Threshold) -> Command {
-    match method {
-        Method::Fcd => Command::SetXi2(to),
-        Method::Jfd => Command::SetXi1(to),
-    }
+    (detection.of(method), method != Method::Jfd || detection.xi1_rule == Xi1Rule::Constant)
 }
 
 /// The threshold of a detector (SI) that its plot should show: the one that is set, else `otherwise`.
@@ -43,13 +32,19 @@ fn color(role: Role, theme: &Theme) -> Color32 {
     paint::color(Ink::Role(role), theme)
 }
 
-/// What a detector judges, with its threshold and its events.
-pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
+/// A value with its unit, where it has one.
+fn with_unit(value: &str, unit: &str) -> String {
+    format!("{value} {unit}").trim_end().into()
+}
+
+/// What the detectors of a plot judge, with their thresholds and events. All of them are shown in the unit of the first.
+pub fn judging(ui: &mut Ui, view: &mut View<'_>, methods: &[Method]) {
+    let Some(&first) = methods.first() else { return };
     let run = view.run;
     let scenario = run.plan.scenario();
     let theme = view.frame.theme;
-    let Measure { name, symbol, scale, unit, decimals, role, .. } = measure(method);
-    let curves = curves(method, &scenario.detection);
+    let Measure { name, symbol, scale, unit, decimals, .. } = measure(first);
+    let curves: Vec<Curve> = methods.iter().flat_map(|&method| curves(method, &scenario.detection)).collect();
     let value = |curve: &Curve, sample: &Sample| (curve.value)(sample, &scenario.detection) * scale;
     let ink = |curve: &Curve| color(curve.role, &theme);
     let now = run.sample_at(view.cursor);
@@ -63,7 +58,8 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     let painter = ui.painter().clone();
 
     view.scrub(ui, &format!("Plot of the {} over time", name.to_lowercase()));
-    view.frame.title(&painter, &format!("{name} {symbol} ({unit})"), &format!("{symbol} ({unit})"), &readouts);
+    let unit_behind = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    view.frame.title(&painter, &format!("{name} {symbol}{unit_behind}"), &format!("{symbol}{unit_behind}"), &readouts);
     if !view.has_values() {
         empty(&painter, &view.frame, "no values in this run");
     }
@@ -71,22 +67,28 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, method: Method) {
     view.between(&painter);
     view.cursor(&painter, &dots);
 
-    view.arming(ui, &painter);
-    if view.which == 0 {
-        view.detection_label(&painter);
+    let wait = methods.iter().all(|&method| scenario.detection.waits(method));
+    if wait {
+        view.arming(ui, &painter);
     }
-    let (threshold, judges) = set(method, scenario);
-    let otherwise = view.otherwise(method);
-    let line = Line { measure: measure(method), threshold, otherwise, color: color(role, &theme), judges };
-    let outcome = view.threshold(ui, &line);
-    view.hold(method, outcome.moving);
-    view.out.extend(outcome.changed.map(|to| change(method, to)));
-    view.over(&painter, &events(run, method));
-    view.change(&painter);
-    if !view.event(ui, &painter, method) {
+    if view.which == 0 {
+        view.detection_label(&painter, wait);
+    }
+    for (place, &method) in methods.iter().enumerate() {
+        let (threshold, judges) = set(method, scenario);
+        let measure = measure(method);
+        let color = color(measure.role, &theme);
+        let line = Line { measure, threshold, otherwise: view.otherwise(method), color, judges, place };
+        let outcome = view.threshold(ui, &line);
+        view.hold(method, outcome.moving);
+        view.out.extend(outcome.changed.map(|to| Command::SetThreshold(method, to)));
+        view.over(&painter, &events(run, method));
+    }
+    view.change(&painter, symbol);
+    if !methods.iter().any(|&method| view.event(ui, &painter, method)) {
         view.hover(&painter, |sample| {
             let line = |curve: &Curve| {
-                let text = format!("{} {} {unit}", curve.name, number(value(curve, sample), decimals));
+                let text = with_unit(&format!("{} {}", curve.name, number(value(curve, sample), decimals)), unit);
                 job(&text, SMALL + 1.0, ink(curve))
             };
             curves.iter().map(line).collect()
@@ -105,6 +107,6 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     view.frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
     view.between(&painter);
     view.cursor(&painter, &[(value(&now), theme.robot)]);
-    view.change(&painter);
+    view.change(&painter, "θ_L");
     view.hover(&painter, |sample| vec![job(&format!("θ_L {}°", number(value(sample), 2)), SMALL + 1.0, theme.ink)]);
 }

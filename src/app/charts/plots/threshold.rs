@@ -16,6 +16,8 @@ const GRAB: f32 = 8.0;
 const GRAB_TOUCH: f32 = 16.0;
 /// Height of the label at the line's end.
 const LABEL: f32 = 24.0;
+/// From one label to the next, where a plot has several thresholds, points.
+const BESIDE: f32 = 104.0;
 
 /// One threshold of one plot.
 pub struct Line {
@@ -29,6 +31,8 @@ pub struct Line {
     pub color: Color32,
     /// Whether it judges; one that does not is dashed.
     pub judges: bool,
+    /// Its place among the thresholds of the plot, whose labels stand side by side.
+    pub place: usize,
 }
 
 /// What a person did with it.
@@ -83,7 +87,8 @@ impl View<'_> {
         }
         let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));
-        self.label(ui, pos2(data.left() + 4.0, middle - half), &values, line, &mut outcome);
+        let left = data.left() + 4.0 + line.place as f32 * BESIDE;
+        self.label(ui, pos2(left, middle - half), &values, line, &mut outcome);
         outcome
     }
 
@@ -146,7 +151,7 @@ impl View<'_> {
             .max_decimals(decimals + 1)
             .min_decimals(decimals)
             .update_while_editing(false)
-            .suffix(format!(" {unit}"));
+            .suffix(if unit.is_empty() { String::new() } else { format!(" {unit}") });
         let response = inner.add(value).accessible_name(format!("{name} on plot"));
         outcome.moving |= response.dragged();
         if shown != before && shown.is_finite() {

@@ -41,7 +41,7 @@ pub const LOAD: &[Control] = &[
     row("load.finish", "Full load from", 2, Linear(0.05)),
 ];
 
-/// What ξ1 is, and what Eq. 24 takes the contact to be.
+/// What ξ1 is, what Eq. 24 takes the contact to be, and which detectors judge.
 pub const CHOICES: &[Choice] = &[
     Choice {
         of: key("detection.xi1_rule"),
@@ -54,5 +54,17 @@ pub const CHOICES: &[Choice] = &[
         label: "Located as",
         hint: "What Eq. 24 takes the contact to be.",
         options: &["clamp", "plane", "simulated"],
+    },
+    Choice {
+        of: key("detection.arming"),
+        label: "Armed from applies to",
+        hint: "",
+        options: &["FCD and JFD", "all detectors"],
+    },
+    Choice {
+        of: key("detection.detectors"),
+        label: "Detectors",
+        hint: "",
+        options: &["FCD", "JFD", "FCD consistent", "FCD velocity", "CUSUM", "GLR"],
     },
 ];
