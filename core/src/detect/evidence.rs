@@ -1,6 +1,8 @@
 //! What the methods compute at each instant, before any threshold: filtered motion, centrodes, joint forces (Eqs. 12, 16–18), and what
 //! is computed of each reading of the tracker.
 
+use super::calibration::monitor::Monitor;
+use super::calibration::watched::Watched;
 use super::filter::{FilteredMotion, PoseFilter};
 use super::judge::Settings;
 use super::nominal::{Expected, Nominal};
@@ -167,13 +169,14 @@ pub struct Observer {
     nominal: Option<Nominal>,
     /// Its last reading, and the average over them, where the detector judges that compares with it.
     consistent: Option<(Reading, Averaged)>,
+    monitor: Option<Monitor>,
     held: Held,
 }
 
 impl Observer {
-    /// Before the first entry.
+    /// Before the first entry. `monitor` is the calibration filter, where a detector that judges rests on it.
     #[must_use]
-    pub fn new(settings: &Settings) -> Self {
+    pub fn new(settings: &Settings, monitor: Option<Monitor>) -> Self {
         let judges = |method| settings.thresholds.detectors.has(method);
         let compares = [Method::FcdConsistent, Method::Cusum, Method::Glr].into_iter().any(judges);
         let none = Reading { position: UNDEFINED, angles: [f64::NAN; 3] };
@@ -183,8 +186,15 @@ impl Observer {
             sensor: Averaged::new(settings),
             nominal: compares.then(|| Nominal::new(&settings.segment, &settings.clock)),
             consistent: judges(Method::FcdConsistent).then(|| (none, Averaged::new(settings))),
+            monitor,
             held: Held::UNDEFINED,
         }
+    }
+
+    /// What the calibration filter has heard.
+    #[must_use]
+    pub fn watched(&self) -> Option<Watched> {
+        self.monitor.as_ref().map(Monitor::watched)
     }
 
     /// Takes the next entry.
@@ -193,7 +203,7 @@ impl Observer {
         let motion = self.sensor.motion(reading);
         let expected = Expectation::new(&self.segment, *configuration, self.epsilon_tau);
         if let Some(new) = self.nominal.as_mut().and_then(|nominal| nominal.take(entry)) {
-            self.renew(&new);
+            self.renew(&new, entry);
         }
         let (segment, epsilon_tau) = (&self.segment, self.epsilon_tau);
         let (sensor_centrode, deviation) = deviation(&expected.centrode, &motion);
@@ -220,7 +230,10 @@ impl Observer {
     }
 
     /// Takes a new reading of the tracker with what is expected of it: what follows from it holds until the next one.
-    fn renew(&mut self, expected: &Expected) {
+    fn renew(&mut self, expected: &Expected, entry: &Entry) {
+        if let Some(heard) = self.monitor.as_mut().and_then(|monitor| monitor.take(expected, entry)) {
+            self.held = Held { cusum: heard.cusum, glr: heard.glr };
+        }
         if let Some((held, _)) = &mut self.consistent {
             *held = expected.reading;
         }

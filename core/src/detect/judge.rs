@@ -1,12 +1,17 @@
 //! A recording and settings in, everything concluded out.
 
 use super::alarm::{Alarms, Crossing, Detection, Event};
+use super::calibration::monitor::{Monitor, Readings, Watching};
+use super::calibration::watched::Watched;
+use super::calibration::{Belief, Command, Noise, noise};
 use super::evidence::{Evidence, Observer};
-use super::nominal::Clock;
+use super::nominal::{Clock, Nominal};
 use super::statistic::Method;
 use crate::model::{Assumed, Assumption, Segment};
-use crate::record::Recording;
-use crate::scenario::{ContactKind, EstimationKind, Filter, Plan, Thresholds};
+use crate::model::configuration::bend_from_theta_l;
+use crate::record::{Entry, Recorder, Recording};
+use crate::scenario::motion::command;
+use crate::scenario::{ContactKind, EstimationKind, Filter, Plan, Scenario, Thresholds};
 
 /// What a recording is judged with.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,6 +26,8 @@ pub struct Settings {
     pub filter: Filter,
     /// When the tracker reads, and how its marker is mounted.
     pub clock: Clock,
+    /// With what the calibration filter watches.
+    pub watching: Watching,
     /// The detectors that judge, their thresholds, and when they are looked at.
     pub thresholds: Thresholds,
     /// What Eq. 24 takes the contact to be.
@@ -38,9 +45,45 @@ impl Settings {
             loop_rate: scenario.loop_rate,
             filter: scenario.filter.clone(),
             clock: Clock::of(plan),
+            watching: watching(scenario),
             thresholds: scenario.detection.clone(),
             assumption: assumption(plan),
         }
+    }
+
+    /// Whether a detector judges that rests on the calibration filter.
+    #[must_use]
+    pub fn watches(&self) -> bool {
+        [Method::Cusum, Method::Glr].into_iter().any(|method| self.thresholds.detectors.has(method))
+    }
+
+    /// The calibration filter before the first of some entries; none where no detector that judges rests on it.
+    #[must_use]
+    pub fn monitor(&self, entries: &[Entry]) -> Option<Monitor> {
+        self.watches().then(|| {
+            let readings = Readings::of(&self.segment, &self.clock, entries);
+            let model = self.watching.model(self.segment.length, &readings);
+            Monitor::new(&self.watching, &self.clock, &model, readings.commands.into_iter())
+        })
+    }
+
+    /// The same for the experiment of a plan, before it is simulated: it is looked at until the robot moves.
+    #[must_use]
+    pub fn monitor_of(&self, plan: &Plan) -> Option<Monitor> {
+        self.watches().then(|| {
+            let mut nominal = Nominal::new(&self.segment, &self.clock);
+            let mut still = Readings::default();
+            for (entry, _) in Recorder::new(plan) {
+                if let Some(expected) = nominal.take(&entry) {
+                    still.take(&expected, &entry, &self.clock.tip_from_marker);
+                    if noise::still(&still.commands) < still.commands.len() {
+                        break;
+                    }
+                }
+            }
+            let model = self.watching.model(self.segment.length, &still);
+            Monitor::new(&self.watching, &self.clock, &model, commands(plan, &self.clock))
+        })
     }
 
     /// Whether the same is computed at each instant by these settings as by others: they differ at most in thresholds, and in which of
@@ -53,9 +96,33 @@ impl Settings {
             detectors
         };
         // Every field by name, so that one to come is thought of.
-        let Self { segment, epsilon_tau, loop_rate, filter, clock, thresholds: _, assumption: _ } = self;
+        let Self { segment, epsilon_tau, loop_rate, filter, clock, watching, thresholds: _, assumption: _ } = self;
         (segment, epsilon_tau, loop_rate) == (&other.segment, &other.epsilon_tau, &other.loop_rate)
             && (filter, clock, computed(self)) == (&other.filter, &other.clock, computed(other))
+            && *watching == other.watching
+    }
+}
+
+/// What a robot is told at each of the tracker's readings, by a plan.
+fn commands(plan: &Plan, clock: &Clock) -> impl Iterator<Item = Command> {
+    let motion = plan.scenario().motion.clone();
+    let (rate, latency, end) = (clock.rate, clock.latency, plan.time(plan.samples() - 1));
+    let command = move |k: u64| {
+        let time = k as f64 / rate;
+        let (theta_l, theta_l_rate) = command(&motion, time - latency);
+        Command { time, bend: bend_from_theta_l(theta_l), rate: 0.0 - theta_l_rate, delta: motion.delta }
+    };
+    (0..).map(command).take_while(move |command| command.time <= end)
+}
+
+/// With what the calibration filter of a scenario watches.
+fn watching(scenario: &Scenario) -> Watching {
+    let tracker = &scenario.tracker;
+    Watching {
+        belief: Belief::default(),
+        noise: [None; 3],
+        declared: Noise { position: tracker.position_noise, orientation: tracker.orientation_noise, colour: 0.0 },
+        with_bank: scenario.detection.detectors.has(Method::Glr),
     }
 }
 
@@ -79,6 +146,8 @@ pub struct Judged {
     pub settings: Settings,
     /// What is known at each entry, before any threshold.
     pub evidence: Vec<Evidence>,
+    /// What the calibration filter has heard, where a detector that judges rests on it.
+    pub watched: Option<Watched>,
     /// Threshold crossings, in order.
     pub crossings: Vec<Crossing>,
     /// Events of the detectors that judge, in the order in which they were raised.
@@ -99,9 +168,11 @@ pub struct Judged {
 /// ```
 #[must_use]
 pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
-    let mut observer = Observer::new(settings);
+    let monitor = settings.monitor(&recording.entries);
+    let mut observer = Observer::new(settings, monitor);
     let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
-    let judged = Judged { settings: settings.clone(), evidence, crossings: Vec::new(), events: Vec::new() };
+    let watched = observer.watched();
+    let judged = Judged { settings: settings.clone(), evidence, watched, crossings: Vec::new(), events: Vec::new() };
     judged.again(recording, settings.thresholds.clone(), settings.assumption)
 }
 

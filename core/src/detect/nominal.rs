@@ -35,8 +35,12 @@ impl Clock {
 pub struct Expected {
     /// When the reading was taken, s.
     pub taken: f64,
+    /// When the tracker delivered it, s.
+    pub delivered: f64,
     /// The configuration commanded then; NaN where no command is known.
     pub configuration: Configuration,
+    /// Commanded φ̇ then, rad/s.
+    pub bend_rate: f64,
     /// The end disk of the free model in that configuration.
     pub tip: Pose,
     /// What the tracker would read of it without any error.
@@ -48,8 +52,8 @@ pub struct Expected {
 pub struct Nominal {
     clock: Clock,
     segment: Segment,
-    /// Times (s) and commands, as far back as a reading may look.
-    commands: VecDeque<(f64, Configuration)>,
+    /// Times (s) and commands with φ̇ (rad/s), as far back as a reading may look.
+    commands: VecDeque<(f64, Configuration, f64)>,
     /// Whether commands were given up because too many would have to be kept.
     given_up: bool,
     /// The refresh of the tracker at which the last reading came.
@@ -69,7 +73,8 @@ impl Nominal {
     /// Takes the next entry; where the tracker has a new reading in it, what is expected of that.
     pub fn take(&mut self, entry: &Entry) -> Option<Expected> {
         let Clock { rate, latency, .. } = self.clock;
-        self.commands.push_back((entry.time, entry.configuration));
+        // θL falls as the bend grows; at rest φ̇ is 0, not −0.
+        self.commands.push_back((entry.time, entry.configuration, 0.0 - entry.theta_l_rate));
         if self.commands.len() as u64 > MAX_FILTER {
             self.commands.pop_front();
             self.given_up = true;
@@ -80,25 +85,29 @@ impl Nominal {
         }
         self.refresh = Some(refresh);
         let taken = (refresh / rate).min(entry.time) - latency;
-        let configuration = self.commanded(taken);
+        let (configuration, bend_rate) = self.commanded(taken);
         let tip = self.segment.arc(configuration).pose(self.segment.length);
         let reading = self.reading(&tip);
-        Some(Expected { taken, configuration, tip, reading })
+        let delivered = refresh / rate;
+        Some(Expected { taken, delivered, configuration, bend_rate, tip, reading })
     }
 
-    /// The configuration commanded at a time (s) that is not before that of the call before; the first one for times before it.
-    fn commanded(&mut self, time: f64) -> Configuration {
-        while self.commands.get(1).is_some_and(|(next, _)| *next <= time) {
+    /// The configuration commanded at a time (s) that is not before that of the call before, and φ̇ (rad/s); the first one for times
+    /// before it.
+    fn commanded(&mut self, time: f64) -> (Configuration, f64) {
+        while self.commands.get(1).is_some_and(|(next, ..)| *next <= time) {
             self.commands.pop_front();
             self.given_up = false;
         }
+        let unknown = (Configuration::new(f64::NAN, f64::NAN), f64::NAN);
         match (self.commands.front(), self.commands.get(1)) {
-            (Some((from, _)), _) if *from > time && self.given_up => Configuration::new(f64::NAN, f64::NAN),
-            (Some(&(from, first)), Some(&(to, next))) if time > from => {
-                between(first, next, (time - from) / (to - from))
+            (Some((from, ..)), _) if *from > time && self.given_up => unknown,
+            (Some(&(from, first, slow)), Some(&(to, next, fast))) if time > from => {
+                let share = (time - from) / (to - from);
+                (between(first, next, share), slow + share * (fast - slow))
             }
-            (Some(&(_, first)), _) => first,
-            (None, _) => Configuration::new(f64::NAN, f64::NAN),
+            (Some(&(_, first, rate)), _) => (first, rate),
+            (None, _) => unknown,
         }
     }
 

@@ -20,7 +20,8 @@ impl<'a> Replay<'a> {
     /// Before the first entry.
     #[must_use]
     pub fn new(entries: &'a [Entry], settings: &Settings) -> Self {
-        Self { entries: entries.iter(), observer: Observer::new(settings), alarms: Alarms::new(settings) }
+        let observer = Observer::new(settings, settings.monitor(entries));
+        Self { entries: entries.iter(), observer, alarms: Alarms::new(settings) }
     }
 
     /// Takes the crossings so far out, so that a long log does not gather them.

@@ -2,6 +2,7 @@
 
 use super::Sample;
 use crate::detect::alarm::Alarms;
+use crate::detect::calibration::watched::Watched;
 use crate::detect::evidence::Observer;
 use crate::detect::{Crossing, Detection, Event, Settings};
 use crate::plant::PlantEvent;
@@ -27,7 +28,7 @@ impl<'a> Simulation<'a> {
         let settings = Settings::of(plan);
         Self {
             recorder: Recorder::new(plan),
-            observer: Observer::new(&settings),
+            observer: Observer::new(&settings, settings.monitor_of(plan)),
             alarms: Alarms::new(&settings),
             watch: Watch::default(),
             entry: None,
@@ -55,6 +56,12 @@ impl<'a> Simulation<'a> {
     #[must_use]
     pub fn events(&self) -> &[Event] {
         self.alarms.events()
+    }
+
+    /// What the calibration filter has heard so far, as far as it is kept; none where no detector that judges rests on it.
+    #[must_use]
+    pub fn watched(&self) -> Option<Watched> {
+        self.observer.watched()
     }
 
     /// The first detection so far.

@@ -328,7 +328,7 @@ impl Job for Table2Job {
 /// One run, up to its detection.
 fn experiment(plan: &Plan, script: &Script, truth: &Met) -> Row {
     let settings = Settings::of(plan);
-    let (mut observer, mut alarms) = (Observer::new(&settings), Alarms::new(&settings));
+    let (mut observer, mut alarms) = (Observer::new(&settings, None), Alarms::new(&settings));
     let detection = script.entries(plan).find_map(|entry| {
         let evidence = observer.observe(&entry);
         alarms.look(entry.time, &entry.configuration, &evidence.judgement);

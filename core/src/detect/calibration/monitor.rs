@@ -1,32 +1,23 @@
-//! The calibration filter on a stream of entries: which of them bring a new reading, and what the robot was told when it was taken.
+//! The calibration filter on a stream of entries.
 
-use super::course::{Heard, Listener, Model, Moment, Planner};
+use super::course::{Heard, Listener, Model, Planner};
+use super::watched::Watched;
 use super::{Belief, Command, Noise, cusum, noise};
+use crate::detect::nominal::{Clock, Expected, Nominal};
 use crate::model::orientation::from_euler;
-use crate::model::{Mat3, Pose};
+use crate::model::{Mat3, Pose, Segment};
 use crate::record::Entry;
-use crate::sensors::tracker::refresh;
-use std::collections::VecDeque;
-use std::sync::Arc;
 
-/// What a stretch of entries is watched with.
+/// With what a stretch of entries is watched.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Watching {
-    /// Nominal length of the segment, m.
-    pub length: f64,
-    /// What is believed of its calibration.
+    /// What is believed of the robot's calibration.
     pub belief: Belief,
     /// Noise of the tracker, where it is known: the position's (m), the orientation's (rad), its correlation. What is not is measured
     /// while the robot stands still.
     pub noise: [Option<f64>; 3],
     /// What the tracker's noise is taken for where it can be neither known nor measured.
     pub declared: Noise,
-    /// How often the tracker delivers, Hz.
-    pub rate: f64,
-    /// Age of a reading when it arrives, s.
-    pub latency: f64,
-    /// R̃_gᵀ: `tip_from_marker`.
-    pub tip_from_marker: Mat3,
     /// Whether the [`glr`](super::glr) is computed.
     pub with_bank: bool,
 }
@@ -34,11 +25,12 @@ pub struct Watching {
 impl Watching {
     /// Noise, from what is known and from readings that were taken while the robot stood still.
     #[must_use]
-    pub fn noise(&self, command: Option<&Command>, still: &[Pose]) -> Noise {
+    pub fn noise(&self, length: f64, readings: &Readings) -> Noise {
         let measured = if self.noise.iter().all(Option::is_some) {
             None
         } else {
-            command.and_then(|command| noise::measured(self.length, command, still))
+            let still = &readings.poses[..noise::still(&readings.commands)];
+            readings.commands.first().and_then(|command| noise::measured(length, command, still))
         };
         let other = measured.unwrap_or(self.declared);
         let [position, orientation, colour] = self.noise;
@@ -49,72 +41,18 @@ impl Watching {
         }
     }
 
-    /// The pose of the end disk that a reading of the marker tells of.
-    fn pose(&self, entry: &Entry) -> Pose {
-        let rotation = from_euler(&entry.reading.angles) * self.tip_from_marker.transpose();
-        Pose { position: entry.reading.position, rotation }
-    }
-}
-
-/// Which entries bring a new reading, and the command at the instant at which it was taken.
-#[derive(Debug, Clone)]
-pub struct Clock {
-    rate: f64,
-    latency: f64,
-    last: Option<f64>,
-    /// Commands as far back as a reading may have been taken.
-    commands: VecDeque<Command>,
-}
-
-impl Clock {
-    /// Of a tracker that delivers `rate` times a second (Hz) what was true `latency` (s) ago.
+    /// The model of a segment `length` m long, from readings that begin while the robot stands still.
     #[must_use]
-    pub fn new(rate: f64, latency: f64) -> Self {
-        Self { rate, latency, last: None, commands: VecDeque::new() }
-    }
-
-    /// The command that belongs to a new reading; `None` where the entry holds the last one.
-    pub fn look(&mut self, entry: &Entry) -> Option<Command> {
-        let configuration = &entry.configuration;
-        let now = Command {
-            time: entry.time,
-            bend: configuration.bend(),
-            // θL falls as the bend grows; at rest 0, not −0.
-            rate: 0.0 - entry.theta_l_rate,
-            delta: configuration.delta(),
-        };
-        if self.latency == 0.0 {
-            self.commands.clear();
-        }
-        self.commands.push_back(now);
-        let refresh = refresh(self.rate, entry.time);
-        let taken = (refresh / self.rate).min(entry.time) - self.latency;
-        while self.commands.get(1).is_some_and(|next| next.time <= taken) {
-            self.commands.pop_front();
-        }
-        if self.last == Some(refresh) {
-            return None;
-        }
-        self.last = Some(refresh);
-        let before = *self.commands.front()?;
-        let share = self.commands.get(1).map_or(0.0, |after| (taken - before.time) / (after.time - before.time));
-        let share = if share > 0.0 { share } else { 0.0 };
-        let after = self.commands.get(1).unwrap_or(&before);
-        let between = |of: fn(&Command) -> f64| of(&before) + share * (of(after) - of(&before));
-        Some(Command {
-            time: refresh / self.rate,
-            bend: between(|command| command.bend),
-            rate: between(|command| command.rate),
-            delta: between(|command| command.delta),
-        })
+    pub fn model(&self, length: f64, readings: &Readings) -> Model {
+        Model { length, belief: self.belief, noise: self.noise(length, readings) }
     }
 }
 
-/// The readings of a stretch of entries.
+/// The tracker's readings, each once.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Readings {
-    /// At which entry each arrived.
-    pub entries: Vec<usize>,
+    /// When each had arrived, s: the time of the first entry that holds it.
+    pub arrived: Vec<f64>,
     /// What the robot was told when it was taken.
     pub commands: Vec<Command>,
     /// The pose of the end disk that it tells of, in {B}.
@@ -124,84 +62,80 @@ pub struct Readings {
 impl Readings {
     /// Of entries; what is no reading is left out.
     #[must_use]
-    pub fn of(watching: &Watching, entries: &[Entry]) -> Self {
-        let mut clock = Clock::new(watching.rate, watching.latency);
+    pub fn of<'a>(segment: &Segment, clock: &Clock, entries: impl IntoIterator<Item = &'a Entry>) -> Self {
+        let mut nominal = Nominal::new(segment, clock);
         let mut readings = Self::default();
-        for (k, entry) in entries.iter().enumerate() {
-            if let Some(command) = clock.look(entry)
-                && is_reading(entry)
-            {
-                readings.entries.push(k);
-                readings.commands.push(command);
-                readings.poses.push(watching.pose(entry));
+        for entry in entries {
+            if let Some(expected) = nominal.take(entry) {
+                readings.take(&expected, entry, &clock.tip_from_marker);
             }
         }
         readings
     }
 
-    /// The model that a watch takes: with noise as known, or as measured here.
-    #[must_use]
-    pub fn model(&self, watching: &Watching) -> Model {
-        let still = noise::still(&self.commands);
-        let noise = watching.noise(self.commands.first(), &self.poses[..still]);
-        Model { length: watching.length, belief: watching.belief, noise }
+    /// Takes the reading that is new in an entry; returns whether it is one.
+    pub fn take(&mut self, expected: &Expected, entry: &Entry, tip_from_marker: &Mat3) -> bool {
+        let Some((command, pose)) = heard(expected, entry, tip_from_marker) else { return false };
+        self.arrived.push(entry.time);
+        self.commands.push(command);
+        self.poses.push(pose);
+        true
     }
 }
 
-fn is_reading(entry: &Entry) -> bool {
-    !entry.reading.position.x.is_nan() && !entry.reading.angles[0].is_nan()
+/// A new reading and its command; `None` where either is not known.
+fn heard(expected: &Expected, entry: &Entry, tip_from_marker: &Mat3) -> Option<(Command, Pose)> {
+    let Expected { delivered, configuration, bend_rate, .. } = expected;
+    let rotation = from_euler(&entry.reading.angles) * tip_from_marker.transpose();
+    let pose = Pose { position: entry.reading.position, rotation };
+    let (bend, delta) = (configuration.bend(), configuration.delta());
+    let known = pose.position.sum() + pose.rotation.sum() + bend + delta + bend_rate;
+    known.is_finite().then_some((Command { time: *delivered, bend, rate: *bend_rate, delta }, pose))
 }
 
-/// The moments of a stream: made as it goes on, or before for all repeats of a plan.
-#[derive(Debug, Clone)]
-enum Moments {
-    Made(Box<Planner>),
-    Shared(Arc<[Moment]>, usize),
-}
+/// Readings that are kept of a stream: 1000 s at 100 Hz. Of what comes later there are no estimates.
+pub const KEPT: usize = 100_000;
 
 /// The calibration filter on a stream of entries.
 #[derive(Debug, Clone)]
 pub struct Monitor {
-    watching: Watching,
-    clock: Clock,
-    moments: Moments,
+    tip_from_marker: Mat3,
+    model: Model,
+    planner: Planner,
     listener: Listener,
+    readings: Readings,
+    heard: Vec<Heard>,
 }
 
 impl Monitor {
-    /// Makes its moments as it goes. `commands` are those of the readings to come, of which the fastest says how old a contact
-    /// [`cusum`] looks for.
+    /// Before the first entry. `commands` are those of the readings to come, of which the fastest says how old a contact [`cusum`]
+    /// looks for.
     #[must_use]
-    pub fn new(watching: &Watching, model: &Model, commands: impl Iterator<Item = Command>) -> Self {
-        let planner = Planner::new(model, cusum::age(model, commands), watching.with_bank);
-        Self::with(watching, Moments::Made(Box::new(planner)))
+    pub fn new(watching: &Watching, clock: &Clock, model: &Model, commands: impl Iterator<Item = Command>) -> Self {
+        Self {
+            tip_from_marker: clock.tip_from_marker,
+            model: *model,
+            planner: Planner::new(model, cusum::age(model, commands), watching.with_bank),
+            listener: Listener::default(),
+            readings: Readings::default(),
+            heard: Vec::new(),
+        }
     }
 
-    /// With moments that were made before, of the same commands.
+    /// What an entry with a new reading brings, of which this is expected; `None` where the reading is none.
+    pub fn take(&mut self, expected: &Expected, entry: &Entry) -> Option<Heard> {
+        let (command, pose) = heard(expected, entry, &self.tip_from_marker)?;
+        let heard = self.listener.hear(&self.planner.next(&command), &pose);
+        if self.heard.len() < KEPT {
+            self.readings.take(expected, entry, &self.tip_from_marker);
+            self.heard.push(heard);
+        }
+        Some(heard)
+    }
+
+    /// What has been read and heard so far, as far as it was kept.
     #[must_use]
-    pub fn shared(watching: &Watching, moments: Arc<[Moment]>) -> Self {
-        Self::with(watching, Moments::Shared(moments, 0))
-    }
-
-    fn with(watching: &Watching, moments: Moments) -> Self {
-        let clock = Clock::new(watching.rate, watching.latency);
-        Self { watching: *watching, clock, moments, listener: Listener::default() }
-    }
-
-    /// What an entry brings; `None` where it holds the last reading, or none.
-    pub fn look(&mut self, entry: &Entry) -> Option<Heard> {
-        let command = self.clock.look(entry)?;
-        if !is_reading(entry) {
-            return None;
-        }
-        let pose = self.watching.pose(entry);
-        match &mut self.moments {
-            Moments::Made(planner) => Some(self.listener.hear(&planner.next(&command), &pose)),
-            Moments::Shared(moments, next) => {
-                let moment = moments.get(*next)?;
-                *next += 1;
-                Some(self.listener.hear(moment, &pose))
-            }
-        }
+    pub fn watched(&self) -> Watched {
+        Watched { readings: self.readings.clone(), model: self.model, heard: self.heard.clone() }
     }
 }

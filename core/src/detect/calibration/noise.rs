@@ -13,11 +13,15 @@ pub const FLOOR: Noise = Noise { position: 5e-6, orientation: 2e-5, colour: 0.0 
 const PLAIN: f64 = 3.0;
 const MOST: f64 = 0.99;
 
-/// How many readings were taken before the robot first moved.
+/// More are not looked at.
+const ENOUGH: usize = 10_000;
+
+/// How many readings were taken before the robot first moved, or enough of them.
 #[must_use]
 pub fn still(commands: &[Command]) -> usize {
     let moved = |pair: &[Command]| pair[0].bend != pair[1].bend || pair[1].rate != 0.0;
-    commands.windows(2).position(moved).map_or(commands.len(), |last| last + 1)
+    let first = &commands[..commands.len().min(ENOUGH + 1)];
+    first.windows(2).position(moved).map_or(commands.len().min(ENOUGH), |last| last + 1)
 }
 
 /// Noise of readings that were taken while the robot stood still; `None` where there are fewer than [`STILL`].
