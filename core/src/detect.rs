@@ -7,6 +7,7 @@
 
 pub mod alarm;
 pub mod calibration;
+pub mod estimates;
 pub mod evidence;
 pub mod filter;
 pub mod judge;

@@ -199,9 +199,14 @@ impl Run {
 
     /// Holds the evidence against other thresholds.
     fn alarm_again(&mut self, settings: Settings) {
-        let empty = Judged { settings, evidence: Vec::new(), watched: None, crossings: Vec::new(), events: Vec::new() };
-        let (thresholds, assumption) = (empty.settings.thresholds.clone(), empty.settings.assumption);
-        self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, thresholds, assumption);
+        let empty = Judged {
+            settings: settings.clone(),
+            evidence: Vec::new(),
+            watched: None,
+            crossings: Vec::new(),
+            events: Vec::new(),
+        };
+        self.judged = std::mem::replace(&mut self.judged, empty).again(&self.recording, settings);
     }
 
     /// Samples of the run, at least 1.

@@ -3,9 +3,9 @@
 
 use centrode_core::detect::calibration::course::{Listener, Model, Moment, Planner, planar};
 use centrode_core::detect::calibration::marginal::{History, Question, estimate};
-use centrode_core::detect::calibration::signature::Kind;
 use centrode_core::detect::calibration::{Belief, Command, Noise, cusum};
 use centrode_core::model::Pose;
+use centrode_core::scenario::Kind;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
 

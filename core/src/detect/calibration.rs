@@ -19,7 +19,6 @@ pub mod linear;
 pub mod marginal;
 pub mod monitor;
 pub mod noise;
-pub mod shapes;
 pub mod signature;
 pub mod spline;
 pub mod watched;

@@ -2,16 +2,18 @@
 
 use super::alarm::{Alarms, Crossing, Detection, Event};
 use super::calibration::monitor::{Monitor, Readings, Watching};
+use super::calibration::noise::{self, Whiteness};
 use super::calibration::watched::Watched;
-use super::calibration::{Belief, Command, Noise, noise};
+use super::calibration::{Belief, Command, Noise};
+use super::estimates::{Estimated, Known, Placing, estimates};
 use super::evidence::{Evidence, Observer};
 use super::nominal::{Clock, Nominal};
 use super::statistic::Method;
-use crate::model::{Assumed, Assumption, Segment};
 use crate::model::configuration::bend_from_theta_l;
+use crate::model::{Assumed, Assumption, Segment};
 use crate::record::{Entry, Recorder, Recording};
 use crate::scenario::motion::command;
-use crate::scenario::{ContactKind, EstimationKind, Filter, Plan, Scenario, Thresholds};
+use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Scenario, Thresholds};
 
 /// What a recording is judged with.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +34,8 @@ pub struct Settings {
     pub thresholds: Thresholds,
     /// What Eq. 24 takes the contact to be.
     pub assumption: Assumption,
+    /// With what contacts are placed after an alarm.
+    pub placing: Placing,
 }
 
 impl Settings {
@@ -48,6 +52,7 @@ impl Settings {
             watching: watching(scenario),
             thresholds: scenario.detection.clone(),
             assumption: assumption(plan),
+            placing: placing(&scenario.estimation),
         }
     }
 
@@ -96,7 +101,8 @@ impl Settings {
             detectors
         };
         // Every field by name, so that one to come is thought of.
-        let Self { segment, epsilon_tau, loop_rate, filter, clock, watching, thresholds: _, assumption: _ } = self;
+        let Self { segment, epsilon_tau, loop_rate, filter, clock, watching, thresholds: _, assumption: _, placing: _ } =
+            self;
         (segment, epsilon_tau, loop_rate) == (&other.segment, &other.epsilon_tau, &other.loop_rate)
             && (filter, clock, computed(self)) == (&other.filter, &other.clock, computed(other))
             && *watching == other.watching
@@ -124,6 +130,12 @@ fn watching(scenario: &Scenario) -> Watching {
         declared: Noise { position: tracker.position_noise, orientation: tracker.orientation_noise, colour: 0.0 },
         with_bank: scenario.detection.detectors.has(Method::Glr),
     }
+}
+
+/// With what contacts are placed, by a scenario.
+fn placing(estimation: &Estimation) -> Placing {
+    let Estimation { kind: _, estimators, plants, beginnings } = *estimation;
+    Placing { estimators, plants, beginnings: u32::try_from(beginnings).unwrap_or(1) }
 }
 
 /// What Eq. 24 takes a contact to be, by a plan.
@@ -173,14 +185,14 @@ pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
     let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
     let watched = observer.watched();
     let judged = Judged { settings: settings.clone(), evidence, watched, crossings: Vec::new(), events: Vec::new() };
-    judged.again(recording, settings.thresholds.clone(), settings.assumption)
+    judged.again(recording, settings.clone())
 }
 
 impl Judged {
-    /// The same evidence, of `recording`, against other thresholds and under another assumption: nothing is filtered again.
+    /// The same evidence, of `recording`, with settings that [see the same](Settings::see_as): nothing is filtered again.
     #[must_use]
-    pub fn again(mut self, recording: &Recording, thresholds: Thresholds, assumption: Assumption) -> Self {
-        (self.settings.thresholds, self.settings.assumption) = (thresholds, assumption);
+    pub fn again(mut self, recording: &Recording, settings: Settings) -> Self {
+        self.settings = settings;
         let mut alarms = Alarms::new(&self.settings);
         for (entry, evidence) in recording.entries.iter().zip(&self.evidence) {
             alarms.look(entry.time, &entry.configuration, &evidence.judgement);
@@ -193,6 +205,27 @@ impl Judged {
     #[must_use]
     pub fn detection(&self) -> Option<Detection> {
         Detection::first(&self.events)
+    }
+
+    /// Where the contact is that the first alarm of a detector told of, at these times after it (s).
+    #[must_use]
+    pub fn estimates(&self, recording: &Recording, detector: Method, after: &[f64]) -> Vec<Estimated> {
+        let known = Known {
+            entries: &recording.entries,
+            evidence: &self.evidence,
+            watched: self.watched.as_ref(),
+            settings: &self.settings,
+        };
+        self.first(detector).map_or_else(Vec::new, |event| estimates(&known, event, after))
+    }
+
+    /// Whether the calibration filter's innovations are white until the first of its detectors alarms, less the readings that a contact
+    /// may have been in; none where it did not watch, or too briefly.
+    #[must_use]
+    pub fn whiteness(&self) -> Option<Whiteness> {
+        let watched = self.watched.as_ref()?;
+        let own = |event: &&Event| matches!(event.detector, Method::Cusum | Method::Glr);
+        watched.whiteness_before(self.events.iter().find(own).map(|event| event.raised))
     }
 
     /// The first event of a detector.

@@ -3,12 +3,16 @@
 //! Every default is the paper's, or is marked *illustrative* where the paper gives none.
 
 mod calibration;
+mod choice;
 mod contact;
 mod detection;
+mod estimation;
 
 pub use calibration::{Calibration, Draw};
+pub use choice::{Choice, Listed};
 pub use contact::{Contact, ContactKind, Place, Start};
 pub use detection::{Arming, Detectors, Method, Off, Threshold, Thresholds, Xi1Rule};
+pub use estimation::{Estimation, EstimationKind, Estimator, Kind};
 
 use crate::model::Segment;
 use serde::{Deserialize, Serialize};
@@ -274,30 +278,4 @@ pub enum Averaging {
     Readings,
     /// The rotations themselves, on SO(3) (the normalised mean quaternion): no singular orientation.
     Rotations,
-}
-
-/// How a contact is placed.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields)]
-pub struct Estimation {
-    /// The model of the contact in Eq. 24 (default: the paper's).
-    pub kind: EstimationKind,
-}
-
-/// The model of the contact in Eq. 24.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum EstimationKind {
-    /// A beam that clamps the backbone, as in the paper.
-    #[default]
-    Clamp,
-    /// A beam that only touches it.
-    Plane,
-    /// What the simulated beam does, from the bend on at which it does it: a rig knows neither.
-    AsSimulated,
-}
-
-impl EstimationKind {
-    /// All of them.
-    pub const ALL: &[Self] = &[Self::Clamp, Self::Plane, Self::AsSimulated];
 }

@@ -7,11 +7,11 @@
 use super::course::{Model, Moment, residual};
 use super::filter::{Designer, Filter, Response, Stage};
 use super::linear::{self, Linear};
-use super::shapes::Shapes;
-use super::signature::Kind;
+use super::signature::Shapes;
 use super::spline::Spline;
 use super::{Command, STATES, Six, States};
 use crate::model::Pose;
+use crate::scenario::Kind;
 use libm::{exp, sqrt};
 
 /// Beginnings are tried up to so many readings before the alarm.

@@ -5,6 +5,9 @@ use super::marginal::{Estimate, History, Question, estimate};
 use super::monitor::Readings;
 use super::noise::Whiteness;
 
+/// A contact may have begun so long before its alarm, s.
+const BEFORE_ALARM: f64 = 0.5;
+
 /// Readings, and what came of each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Watched {
@@ -31,9 +34,13 @@ impl Watched {
         estimate(&History { model: &self.model, moments: &moments, readings }, question)
     }
 
-    /// Whether innovations before the reading `until` are white. `None` of too few.
+    /// Whether innovations are white, up to half a second before an alarm at a time (s), or all of them. `None` of too few.
     #[must_use]
-    pub fn whiteness(&self, until: usize) -> Option<Whiteness> {
+    pub fn whiteness_before(&self, alarm: Option<f64>) -> Option<Whiteness> {
+        let until = match alarm {
+            Some(alarm) => self.at(alarm - BEFORE_ALARM).map_or(0, |last| last + 1),
+            None => self.heard.len(),
+        };
         let innovations: Vec<_> = self.heard.iter().take(until).map(|heard| heard.innovation).collect();
         Whiteness::of(&innovations)
     }

@@ -1,6 +1,7 @@
 //! Which detectors there are, which of them judge, and their thresholds.
 
-use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+use super::choice::{Choice, Listed};
+use serde::{Deserialize, Serialize};
 
 /// How a contact is noticed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -56,70 +57,16 @@ impl Method {
     }
 }
 
-/// Some of the detectors, each at most once. A file has them as a list of their keys.
-///
-/// ```
-/// use centrode_core::scenario::{Detectors, Method};
-///
-/// let mut detectors = Detectors::of(&[Method::Cusum, Method::Fcd]);
-/// assert_eq!(detectors.iter().collect::<Vec<_>>(), [Method::Fcd, Method::Cusum]);
-/// detectors.set(Method::Fcd, false);
-/// assert!(detectors.has(Method::Cusum) && !detectors.has(Method::Fcd));
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Detectors(u8);
+impl Listed for Method {
+    const ALL: &'static [Self] = Method::ALL;
 
-impl Detectors {
-    /// None of them.
-    pub const NONE: Self = Self(0);
-
-    /// These.
-    #[must_use]
-    pub fn of(methods: &[Method]) -> Self {
-        let mut detectors = Self::NONE;
-        methods.iter().for_each(|&method| detectors.set(method, true));
-        detectors
-    }
-
-    /// Whether a detector is one of them.
-    #[must_use]
-    pub fn has(self, method: Method) -> bool {
-        self.0 & Self::bit(method) != 0
-    }
-
-    /// Takes a detector in, or out.
-    pub fn set(&mut self, method: Method, on: bool) {
-        self.0 = if on { self.0 | Self::bit(method) } else { self.0 & !Self::bit(method) };
-    }
-
-    /// Each of them, in the order of [`Method::ALL`].
-    pub fn iter(self) -> impl DoubleEndedIterator<Item = Method> + Clone {
-        Method::ALL.iter().copied().filter(move |&method| self.has(method))
-    }
-
-    fn bit(method: Method) -> u8 {
-        1 << method as u8
+    fn word(self) -> &'static str {
+        self.key()
     }
 }
 
-impl Serialize for Detectors {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.iter())
-    }
-}
-
-impl<'de> Deserialize<'de> for Detectors {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut detectors = Self::NONE;
-        for method in Vec::<Method>::deserialize(deserializer)? {
-            if detectors.has(method) {
-                return Err(de::Error::custom(format!("{} stands there twice", method.key())));
-            }
-            detectors.set(method, true);
-        }
-        Ok(detectors)
-    }
-}
+/// Some of the detectors.
+pub type Detectors = Choice<Method>;
 
 /// Which detectors raise no alarm before `detection.armed_from`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

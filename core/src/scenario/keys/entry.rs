@@ -32,7 +32,19 @@ macro_rules! either {
         Access::Word(|s| usize::from(s.$($path).+ == $second), |s, i| s.$($path).+ = if i == 0 { $first } else { $second })
     };
 }
-pub(super) use {either, number, one_of, threshold, vector, whole};
+/// Some of a list.
+macro_rules! some_of {
+    ($($path:ident).+, $of:ty) => {
+        Access::Words(
+            |s, place| <$of>::ALL.get(place).is_some_and(|&one| s.$($path).+.has(one)),
+            |s, places| {
+                let chosen = places.iter().filter_map(|&place| <$of>::ALL.get(place).copied());
+                s.$($path).+ = crate::scenario::Choice::of(&chosen.collect::<Vec<_>>());
+            },
+        )
+    };
+}
+pub(super) use {either, number, one_of, some_of, threshold, vector, whole};
 
 pub(super) const fn key(
     path: &'static str,

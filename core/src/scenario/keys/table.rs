@@ -4,10 +4,10 @@ mod calibration;
 mod detection;
 mod experiment;
 
-use crate::scenario::keys::entry::{between, either, key, one_of, whole};
+use crate::scenario::keys::entry::{between, either, key, one_of, some_of, whole};
 use crate::scenario::keys::quantity::Quantity::{Count, Word};
 use crate::scenario::keys::{Access, Allowed, Key};
-use crate::scenario::{Averaging, EstimationKind, Scenario};
+use crate::scenario::{Averaging, EstimationKind, Estimator, Kind, Scenario};
 
 /// Keys that belong together.
 #[derive(Debug, Clone, Copy)]
@@ -100,4 +100,30 @@ const JUDGING: &[Key] = &[
          touches; as-simulated is what contact.kind says (a plane for a cylinder), with the bend at which the contact truly began; for a log, \
          with that of the scenario's contact.",
     ),
+    key(
+        "estimation.estimators",
+        Word,
+        Allowed::Some(Estimator::WORDS),
+        some_of!(estimation.estimators, Estimator),
+        "What places a contact after an alarm: eq24 is the paper's at that instant, settled the same one filter length later; marginal gives \
+         an interval, with the errors of the calibration integrated out.",
+    )
+    .illustrative(),
+    key(
+        "estimation.plants",
+        Word,
+        Allowed::Some(Kind::WORDS),
+        some_of!(estimation.plants, Kind),
+        "Kinds of contact that the estimator marginal thinks possible, each as likely as the other beforehand.",
+    )
+    .illustrative(),
+    key(
+        "estimation.beginnings",
+        Count,
+        Allowed::Whole(1, 16),
+        whole!(estimation.beginnings),
+        "How many instants between one reading and the next the estimator marginal tries as the beginning of a contact.",
+    )
+    .usual_range(1.0, 16.0)
+    .illustrative(),
 ];

@@ -2,10 +2,10 @@
 
 use super::RUN;
 use crate::scenario::keys::allowed::NOT_NEGATIVE;
-use crate::scenario::keys::entry::{between, either, key, number, threshold};
+use crate::scenario::keys::entry::{between, either, key, number, some_of, threshold};
 use crate::scenario::keys::quantity::Quantity::{AngularSpeed, Count, Length, Moment, Ratio, Speed, Time, Word};
 use crate::scenario::keys::{Access, Allowed, Key};
-use crate::scenario::{Arming, Detectors, Method, Xi1Rule};
+use crate::scenario::{Arming, Method, Xi1Rule};
 use std::f64::consts::PI;
 
 /// 10°/s.
@@ -15,14 +15,7 @@ pub(super) const DETECTORS: Key = key(
     "detection.detectors",
     Word,
     Allowed::Some(Method::KEYS),
-    Access::Words(
-        |s, place| Method::ALL.get(place).is_some_and(|&method| s.detection.detectors.has(method)),
-        |s, places| {
-            s.detection.detectors = Detectors::NONE;
-            let chosen = places.iter().filter_map(|&place| Method::ALL.get(place));
-            chosen.for_each(|&method| s.detection.detectors.set(method, true));
-        },
-    ),
+    some_of!(detection.detectors, Method),
     "The detectors that judge: fcd and jfd are the paper's; fcd-consistent delays and averages the model's centrode as the sensor's is; \
      fcd-velocity compares velocities, not centrodes; cusum and glr are likelihood ratios of a contact after calibration.",
 )

@@ -1,0 +1,101 @@
+//! Where the contact is that an alarm told of, at the alarm and as more is read.
+
+use super::alarm::Event;
+use super::calibration::marginal::{Estimate, Place, Question};
+use super::calibration::watched::Watched;
+use super::evidence::Evidence;
+use super::judge::Settings;
+use crate::model::{Location, Rate, locate};
+use crate::record::Entry;
+use crate::scenario::{Estimator, Kind};
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// One estimate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Estimated {
+    /// Time since the alarm, s.
+    pub after: f64,
+    /// Time at which it was made, s.
+    pub time: f64,
+    /// What made it.
+    pub estimator: Estimator,
+    /// Arc lengths, m. An estimator that gives no interval gives one of no width.
+    pub location: Place,
+    /// When the contact began, s; null where the estimator does not say.
+    pub contact_time: Option<f64>,
+    /// Probability of each kind of contact; empty where the estimator does not say.
+    pub kinds: BTreeMap<&'static str, f64>,
+}
+
+/// With what contacts are placed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placing {
+    /// The estimators.
+    pub estimators: crate::scenario::Choice<Estimator>,
+    /// The kinds of contact that are thought possible.
+    pub plants: crate::scenario::Choice<Kind>,
+    /// Beginnings that are tried between two readings.
+    pub beginnings: u32,
+}
+
+/// The posterior of an alarm's contact, from what had been read at `time` (s). `None` without the readings, or where nothing moved.
+#[must_use]
+pub fn marginal(watched: &Watched, placing: &Placing, alarm: f64, time: f64) -> Option<Estimate> {
+    let kinds: Vec<Kind> = placing.plants.iter().collect();
+    let question = Question { alarm: watched.at(alarm)?, kinds: &kinds, parts: placing.beginnings };
+    watched.estimate(watched.at(time)?, &question)
+}
+
+/// What is known of a run where contacts are placed.
+#[derive(Debug, Clone, Copy)]
+pub struct Known<'a> {
+    /// What was judged.
+    pub entries: &'a [Entry],
+    /// What is known of each entry.
+    pub evidence: &'a [Evidence],
+    /// What the calibration filter has heard; none where no detector rests on it.
+    pub watched: Option<&'a Watched>,
+    /// With what it was judged.
+    pub settings: &'a Settings,
+}
+
+/// The estimates of an event at these times since its alarm (s), as far as there are entries so late.
+#[must_use]
+pub fn estimates(known: &Known, event: &Event, after: &[f64]) -> Vec<Estimated> {
+    let placing = &known.settings.placing;
+    let ask = |after: f64, estimator: Estimator| {
+        let time = event.raised + after;
+        if known.entries.last().is_none_or(|last| last.time < time) {
+            return None;
+        }
+        let estimated =
+            |location, contact_time, kinds| Some(Estimated { after, time, estimator, location, contact_time, kinds });
+        match estimator {
+            Estimator::Eq24 => estimated(eq24(known, time)?, None, BTreeMap::new()),
+            Estimator::Settled => {
+                let settings = known.settings;
+                let whole = settings.filter.length as f64 / settings.loop_rate;
+                estimated(eq24(known, time + whole)?, None, BTreeMap::new())
+            }
+            Estimator::Marginal => {
+                let estimate = marginal(known.watched?, placing, event.raised, time)?;
+                let kinds = estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect();
+                estimated(estimate.place, Some(estimate.began), kinds)
+            }
+        }
+    };
+    let estimators: Vec<Estimator> = placing.estimators.iter().collect();
+    after.iter().flat_map(|&after| estimators.iter().filter_map(move |&estimator| ask(after, estimator))).collect()
+}
+
+/// The place that Eq. 24 gives at a time (s). `None` where the sensor has no centrode then, or there is no such entry.
+fn eq24(known: &Known, time: f64) -> Option<Place> {
+    let Known { entries, evidence, settings, .. } = known;
+    let at = entries.partition_point(|entry| entry.time < time - 1e-9);
+    let (entry, evidence) = (entries.get(at)?, evidence.get(at)?);
+    let sensor = &evidence.judgement.sensor_centrode;
+    let Location { arc_length, .. } =
+        locate(settings.assumption, settings.segment.length, entry.configuration, Rate::BENDING, sensor)?;
+    Some(Place { mean: arc_length, mode: arc_length, low: arc_length, high: arc_length })
+}
