@@ -340,8 +340,7 @@ fn json_of(value: &Value) -> Json {
     match value {
         Value::Number(number) => json!(number),
         Value::Whole(whole) => json!(whole),
-        Value::Word(word) => json!(word),
-        Value::Off => json!("off"),
+        Value::Word(word) | Value::Off(word) => json!(word),
         Value::List(numbers) => json!(numbers),
         Value::Other(text) => json!(text),
     }

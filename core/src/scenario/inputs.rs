@@ -4,9 +4,11 @@
 
 mod calibration;
 mod contact;
+mod prior;
 
 pub use calibration::{Calibration, Draw};
 pub use contact::{Contact, ContactKind, Place, Start};
+pub use prior::{Auto, Estimated, Prior};
 
 use crate::model::Segment;
 use serde::{Deserialize, Serialize};
@@ -40,6 +42,8 @@ pub struct Scenario {
     pub detection: Thresholds,
     /// How a contact is placed.
     pub estimation: Estimation,
+    /// What a calibration filter takes for granted.
+    pub prior: Prior,
 }
 
 impl Default for Scenario {
@@ -57,6 +61,7 @@ impl Default for Scenario {
             filter: Filter::default(),
             detection: Thresholds::default(),
             estimation: Estimation::default(),
+            prior: Prior::default(),
         }
     }
 }

@@ -155,8 +155,7 @@ fn written(value: &Value) -> String {
     match value {
         Value::Number(value) => number(*value),
         Value::Whole(value) => value.to_string(),
-        Value::Word(word) => (*word).into(),
-        Value::Off => "off".into(),
+        Value::Word(word) | Value::Off(word) => (*word).into(),
         Value::List(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
         Value::Other(text) => text.clone(),
     }

@@ -14,6 +14,9 @@ macro_rules! whole {
 macro_rules! threshold {
     ($($path:ident).+) => { Access::Threshold(|s| s.$($path).+, |s, value| s.$($path).+ = value) };
 }
+macro_rules! estimated {
+    ($($path:ident).+) => { Access::Estimated(|s| s.$($path).+, |s, value| s.$($path).+ = value) };
+}
 macro_rules! vector {
     ($($path:ident).+) => { Access::Vector(|s| &s.$($path).+, |s, value| s.$($path).+ = value) };
 }
@@ -32,7 +35,7 @@ macro_rules! either {
         Access::Word(|s| usize::from(s.$($path).+ == $second), |s, i| s.$($path).+ = if i == 0 { $first } else { $second })
     };
 }
-pub(super) use {either, number, one_of, threshold, vector, whole};
+pub(super) use {either, estimated, number, one_of, threshold, vector, whole};
 
 pub(super) const fn key(
     path: &'static str,

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod experiment;
+mod prior;
 
 use crate::scenario::keys::allowed::NOT_NEGATIVE;
 use crate::scenario::keys::entry::{between, either, key, number, one_of, threshold, whole};
@@ -33,6 +34,7 @@ pub const GROUPS: &[Group] = &[
     Group { path: "filter", sentence: "The moving average over the tracker's readings." },
     Group { path: "detection", sentence: "Thresholds, and when they apply." },
     Group { path: "estimation", sentence: "How a contact is placed." },
+    Group { path: "prior", sentence: "What the calibration filter takes for granted." },
 ];
 
 const DIAMETERS: Allowed = between(1e-6, 1.0);
@@ -45,8 +47,8 @@ const FAST: f64 = PI / 18.0;
 /// Everything that can be set; the keys of a group stand together.
 pub const KEYS: &[Key] = &ALL;
 
-const ALL: [Key; PARTS[0].len() + PARTS[1].len() + PARTS[2].len()] = joined(&PARTS);
-const PARTS: [&[Key]; 3] = [experiment::KEYS, calibration::KEYS, JUDGING];
+const ALL: [Key; PARTS[0].len() + PARTS[1].len() + PARTS[2].len() + PARTS[3].len()] = joined(&PARTS);
+const PARTS: [&[Key]; 4] = [experiment::KEYS, calibration::KEYS, JUDGING, prior::KEYS];
 
 /// Several tables as one.
 const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {

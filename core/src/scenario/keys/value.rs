@@ -12,8 +12,8 @@ pub enum Value {
     Whole(u64),
     /// One of the words that the key knows.
     Word(&'static str),
-    /// A threshold that is switched off.
-    Off,
+    /// A number that is switched off, by the word that stands in its place.
+    Off(&'static str),
     /// Several numbers.
     List(Vec<f64>),
     /// Something that the key cannot hold, as it was written.
@@ -40,8 +40,7 @@ impl Value {
         match self {
             Self::Number(value) => number(*value),
             Self::Whole(value) => value.to_string(),
-            Self::Word(word) => format!("\"{word}\""),
-            Self::Off => "\"off\"".into(),
+            Self::Word(word) | Self::Off(word) => format!("\"{word}\""),
             Self::List(values) => format!("[{}]", values.iter().map(|&v| number(v)).collect::<Vec<_>>().join(", ")),
             Self::Other(text) => text.clone(),
         }
