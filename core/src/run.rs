@@ -332,6 +332,7 @@ fn same_recording(one: &Scenario, other: &Scenario) -> bool {
         filter: _,
         detection: _,
         estimation: _,
+        prior: _,
     } = one;
     (*loop_rate, *seed, *contact) == (other.loop_rate, other.seed, other.contact)
         && (robot, motion, tracker) == (&other.robot, &other.motion, &other.tracker)

@@ -340,9 +340,8 @@ fn json_of(value: &Value) -> Json {
     match value {
         Value::Number(number) => json!(number),
         Value::Whole(whole) => json!(whole),
-        Value::Word(word) => json!(word),
+        Value::Word(word) | Value::Off(word) => json!(word),
         Value::Words(words) => json!(words),
-        Value::Off => json!("off"),
         Value::List(numbers) => json!(numbers),
         Value::Other(text) => json!(text),
     }

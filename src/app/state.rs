@@ -128,11 +128,15 @@ impl State {
     }
 
     /// What a control that is switched off goes back to, in the unit shown: its value when it was last on, else the
-    /// preset's (`base`), else the default.
+    /// preset's (`base`), else the default, else a small one.
     #[must_use]
     pub fn otherwise(&self, control: &Control, base: &Scenario) -> Option<f64> {
         let remembered = self.remembered.get(control.key).copied();
-        remembered.or_else(|| control.value(base)).or_else(|| control.value(&Scenario::default()))
+        let small = || {
+            let (low, high) = control.range(base);
+            control.has_off().then_some(low + 0.1 * (high - low))
+        };
+        remembered.or_else(|| control.value(base)).or_else(|| control.value(&Scenario::default())).or_else(small)
     }
 }
 

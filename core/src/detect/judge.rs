@@ -13,7 +13,7 @@ use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Assumed, Assumption, Segment};
 use crate::record::{Entry, Recorder, Recording};
 use crate::scenario::motion::command;
-use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Scenario, Thresholds};
+use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Prior, Scenario, Thresholds};
 
 /// What a recording is judged with.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,10 +125,22 @@ fn commands(plan: &Plan, clock: &Clock) -> impl Iterator<Item = Command> {
 fn watching(scenario: &Scenario) -> Watching {
     let tracker = &scenario.tracker;
     Watching {
-        belief: Belief::default(),
-        noise: [None; 3],
+        belief: belief(&scenario.prior),
+        noise: [&scenario.prior.position_noise, &scenario.prior.orientation_noise, &scenario.prior.colour]
+            .map(|estimated| estimated.value()),
         declared: Noise { position: tracker.position_noise, orientation: tracker.orientation_noise, colour: 0.0 },
         with_bank: scenario.detection.detectors.has(Method::Glr),
+    }
+}
+
+/// What a scenario believes of a robot's calibration.
+fn belief(prior: &Prior) -> Belief {
+    let Prior { translation, rotation, length, bend_scale, bend_offset, delta, latency, .. } = *prior;
+    let (t, r, d) = (translation, rotation, prior.drift);
+    Belief {
+        deviations: [t, t, t, r, r, r, length, bend_scale, bend_offset, delta, latency, d, d, d],
+        free_bend: prior.free_bend,
+        drift_time: prior.drift_time,
     }
 }
 

@@ -7,12 +7,14 @@ mod choice;
 mod contact;
 mod detection;
 mod estimation;
+mod prior;
 
 pub use calibration::{Calibration, Draw};
 pub use choice::{Choice, Listed};
 pub use contact::{Contact, ContactKind, Place, Start};
 pub use detection::{Arming, Detectors, Method, Off, Threshold, Thresholds, Xi1Rule};
 pub use estimation::{Estimation, EstimationKind, Estimator, Kind};
+pub use prior::{Auto, Estimated, Prior};
 
 use crate::model::Segment;
 use serde::{Deserialize, Serialize};
@@ -46,6 +48,8 @@ pub struct Scenario {
     pub detection: Thresholds,
     /// How a contact is placed.
     pub estimation: Estimation,
+    /// What a calibration filter takes for granted.
+    pub prior: Prior,
 }
 
 impl Default for Scenario {
@@ -63,6 +67,7 @@ impl Default for Scenario {
             filter: Filter::default(),
             detection: Thresholds::default(),
             estimation: Estimation::default(),
+            prior: Prior::default(),
         }
     }
 }

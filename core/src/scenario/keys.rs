@@ -13,7 +13,7 @@ pub mod table;
 pub mod value;
 
 use crate::scenario::refusal::{Refused, ScenarioError};
-use crate::scenario::{Scenario, Threshold};
+use crate::scenario::{Estimated, Scenario, Threshold};
 pub use allowed::Allowed;
 pub use quantity::{Quantity, Units};
 pub use table::{GROUPS, KEYS};
@@ -56,6 +56,7 @@ enum Access {
     Number(fn(&Scenario) -> Option<f64>, fn(&mut Scenario, f64)),
     Whole(fn(&Scenario) -> Option<u64>, fn(&mut Scenario, u64)),
     Threshold(fn(&Scenario) -> Threshold, fn(&mut Scenario, Threshold)),
+    Estimated(fn(&Scenario) -> Estimated, fn(&mut Scenario, Estimated)),
     /// The word's place in the list of words.
     Word(fn(&Scenario) -> usize, fn(&mut Scenario, usize)),
     /// Whether the word at a place in the list of words is held, and which places are.
@@ -63,6 +64,9 @@ enum Access {
     Vector(fn(&Scenario) -> &[f64; 3], fn(&mut Scenario, [f64; 3])),
     List(fn(&Scenario) -> &[f64], fn(&mut Scenario, Vec<f64>)),
 }
+
+const OFF: &str = "off";
+const AUTO: &str = "auto";
 
 /// The key of a path.
 #[must_use]
@@ -155,13 +159,24 @@ impl Key {
     /// Whether it holds a number that need not be whole.
     #[must_use]
     pub const fn is_number(&self) -> bool {
-        matches!(self.access, Access::Number(..) | Access::Threshold(..))
+        matches!(self.access, Access::Number(..) | Access::Threshold(..) | Access::Estimated(..))
     }
 
-    /// Whether it can be switched off.
+    /// Whether it can hold a word in place of its number.
     #[must_use]
     pub const fn has_off(&self) -> bool {
-        matches!(self.access, Access::Threshold(..))
+        self.off().is_some()
+    }
+
+    /// The word that it holds while its number is switched off, where that is possible: "off" for no number at all, "auto" for one
+    /// that is estimated.
+    #[must_use]
+    pub const fn off(&self) -> Option<&'static str> {
+        match self.access {
+            Access::Threshold(..) => Some(OFF),
+            Access::Estimated(..) => Some(AUTO),
+            _ => None,
+        }
     }
 
     /// The words of which it holds one; empty for a number.
@@ -198,7 +213,8 @@ impl Key {
         Some(match self.access {
             Access::Number(get, _) => Value::Number(get(scenario)?),
             Access::Whole(get, _) => Value::Whole(get(scenario)?),
-            Access::Threshold(get, _) => get(scenario).value().map_or(Value::Off, Value::Number),
+            Access::Threshold(get, _) => get(scenario).value().map_or(Value::Off(OFF), Value::Number),
+            Access::Estimated(get, _) => get(scenario).value().map_or(Value::Off(AUTO), Value::Number),
             Access::Word(get, _) => Value::Word(self.words().get(get(scenario)).copied().unwrap_or_default()),
             Access::Words(has, _) => {
                 let words = self.any_of().iter().enumerate().filter(|(place, _)| has(scenario, *place));
@@ -216,6 +232,7 @@ impl Key {
             Access::Number(get, _) => get(scenario),
             Access::Whole(get, _) => get(scenario).map(|value| value as f64),
             Access::Threshold(get, _) => get(scenario).value(),
+            Access::Estimated(get, _) => get(scenario).value(),
             _ => None,
         }
     }
@@ -277,6 +294,7 @@ impl Key {
             Access::Number(_, set) => set(scenario, value),
             Access::Whole(_, set) => set(scenario, libm::round(value) as u64),
             Access::Threshold(_, set) => set(scenario, Threshold::On(value)),
+            Access::Estimated(_, set) => set(scenario, Estimated::Known(value)),
             _ => {}
         }
     }
@@ -294,10 +312,12 @@ impl Key {
         }
     }
 
-    /// Switches it off, where that is possible.
+    /// Switches its number off, where that is possible.
     pub fn switch_off(&self, scenario: &mut Scenario) {
-        if let Access::Threshold(_, set) = self.access {
-            set(scenario, Threshold::OFF);
+        match self.access {
+            Access::Threshold(_, set) => set(scenario, Threshold::OFF),
+            Access::Estimated(_, set) => set(scenario, Estimated::AUTO),
+            _ => {}
         }
     }
 
@@ -310,7 +330,9 @@ impl Key {
             (Access::Number(_, set), Value::Number(value)) => set(scenario, value),
             (Access::Whole(_, set), Value::Whole(value)) => set(scenario, value),
             (Access::Threshold(_, set), Value::Number(value)) => set(scenario, Threshold::On(value)),
-            (Access::Threshold(_, set), Value::Off) => set(scenario, Threshold::OFF),
+            (Access::Threshold(_, set), Value::Off(OFF)) => set(scenario, Threshold::OFF),
+            (Access::Estimated(_, set), Value::Number(value)) => set(scenario, Estimated::Known(value)),
+            (Access::Estimated(_, set), Value::Off(AUTO)) => set(scenario, Estimated::AUTO),
             (Access::List(_, set), Value::List(list)) => set(scenario, list),
             (Access::Vector(_, set), Value::List(list)) => match list.try_into() {
                 Ok(vector) => set(scenario, vector),

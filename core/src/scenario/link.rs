@@ -155,9 +155,8 @@ fn written(value: &Value) -> String {
     match value {
         Value::Number(value) => number(*value),
         Value::Whole(value) => value.to_string(),
-        Value::Word(word) => (*word).into(),
+        Value::Word(word) | Value::Off(word) => (*word).into(),
         Value::Words(words) => words.join(","),
-        Value::Off => "off".into(),
         Value::List(values) => values.iter().map(|value| number(*value)).collect::<Vec<_>>().join(","),
         Value::Other(text) => text.clone(),
     }

@@ -149,7 +149,7 @@ impl Key {
                 };
                 Some(Value::Words(items.iter().enumerate().map(word).collect::<Result<_, _>>()?))
             }
-            Toml::String(word) if word == "off" && self.has_off() => Some(Value::Off),
+            Toml::String(word) if self.off() == Some(word.as_str()) => self.off().map(Value::Off),
             Toml::String(word) => known(word).map(|word| Value::Word(word)),
             _ if self.is_number() => float(value).map(Value::Number),
             _ => None,
@@ -236,6 +236,7 @@ mod tests {
             "contact.bend=0.4",
             "detection.xi1=off",
             "detection.detectors=[]",
+            "prior.colour=0.3",
             "seed=99",
             "robot.disks=[0.01]",
         ] {
@@ -283,6 +284,10 @@ mod tests {
             ("[filter]\naveraging = \"median\"", &["filter.averaging", "median", "readings"]),
             ("[detection]\nxi2 = -0.007", &["detection.xi2", "-0.007", "0 m or more"]),
             ("[detection]\nxi2 = \"never\"", &["detection.xi2", "never", "off"]),
+            ("[prior]\ncolour = 1", &["prior.colour", "1", "below 1", "auto"]),
+            ("[prior]\nposition_noise = \"off\"", &["prior.position_noise", "off", "auto"]),
+            ("[prior]\nposition_noise = -1", &["prior.position_noise", "-1", "0 m", "auto"]),
+            ("[prior]\nlength = \"auto\"", &["prior.length", "auto", "from 0 to 1"]),
             ("[motion]\nend = 1e9", &["motion.end", "1000000000", "1e8"]),
             ("[motion]\nfinish = 2", &["motion.finish", "2", "after"]),
             ("seed = -1", &["seed", "-1", "whole"]),

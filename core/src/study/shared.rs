@@ -2,7 +2,7 @@
 
 use crate::detect::evidence::Expectation;
 use crate::record::Script;
-use crate::scenario::{CellErrors, Filter, Plan, Scenario, Thresholds};
+use crate::scenario::{CellErrors, Filter, Plan, Prior, Scenario, Thresholds};
 use crate::sensors::cells::SimulatedCells;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, OnceLock};
@@ -134,6 +134,7 @@ fn key(plan: &Plan) -> Scenario {
     }
     key.filter = Filter::default();
     key.detection = Thresholds::default();
+    key.prior = Prior::default();
     key.tracker.position_noise = 0.0;
     key.tracker.orientation_noise = 0.0;
     key.calibration.drift = 0.0;

@@ -88,7 +88,7 @@ impl Control {
         [self.of.sentence, self.hint].join(" ").trim_end().into()
     }
 
-    /// Whether it can be switched off.
+    /// Whether its number can be switched off.
     #[must_use]
     pub fn has_off(&self) -> bool {
         self.of.has_off()
@@ -124,7 +124,8 @@ impl Control {
         if let Some(shown) = self.words.and_then(|words| (words.show)(scenario)) {
             return shown;
         }
-        self.value(scenario).map_or(("off".into(), ""), |value| (number(value, self.decimals), self.quantity().unit()))
+        let off = || (self.of.off().unwrap_or("off").into(), "");
+        self.value(scenario).map_or_else(off, |value| (number(value, self.decimals), self.quantity().unit()))
     }
 
     /// Sets it from the unit shown.
@@ -144,9 +145,12 @@ impl Control {
         if let Some(result) = self.words.and_then(|words| (words.enter)(scenario, text)) {
             return result;
         }
-        if self.has_off() && matches!(text.trim().to_lowercase().as_str(), "off" | "none") {
-            self.of.switch_off(scenario);
-            return Ok(());
+        if let Some(off) = self.of.off() {
+            let word = text.trim().to_lowercase();
+            if word == off || (off, word.as_str()) == ("off", "none") {
+                self.of.switch_off(scenario);
+                return Ok(());
+            }
         }
         let value = parse(self.quantity(), text)?;
         if self.of.is_whole() && (value.fract() != 0.0 || value < 0.0) {

@@ -72,7 +72,8 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     }
     if control.has_off() {
         let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
-        if toggle(ui, place, &format!("{label} on"), value.is_some()) {
+        let on = if control.of.off() == Some("auto") { "given" } else { "on" };
+        if toggle(ui, place, &format!("{label} {on}"), value.is_some()) {
             out.push(Command::Switch(control, value.is_none()));
         }
     }

@@ -7,6 +7,7 @@ use Scale::{Linear, Log, LogWhole, Stops, Whole};
 use centrode_core::scenario::keys::{self, Key};
 use centrode_core::scenario::{ContactKind, Method, Scenario};
 
+mod calibration;
 mod forces;
 
 /// The key of a path; a constant of a path that does not exist does not compile.
@@ -125,6 +126,20 @@ pub static GROUPS: &[Group] = &[
         note: forces::PRELOAD_NOTE,
     },
     Group { name: "Load on the tip", folded: true, controls: forces::LOAD, choices: &[], note: "" },
+    Group {
+        name: "Calibration errors",
+        folded: true,
+        controls: calibration::ERRORS,
+        choices: calibration::ERROR_CHOICES,
+        note: calibration::ERROR_NOTE,
+    },
+    Group {
+        name: "Calibration filter",
+        folded: true,
+        controls: calibration::PRIOR,
+        choices: &[],
+        note: calibration::PRIOR_NOTE,
+    },
 ];
 
 /// The control of a key.
@@ -144,7 +159,7 @@ pub fn control_of(path: &str) -> Option<&'static Control> {
 mod tests {
     use super::*;
     use crate::app::memo::check;
-    use centrode_core::scenario::Threshold;
+    use centrode_core::scenario::{Estimated, Threshold};
 
     #[test]
     fn every_row_sets_what_it_gets_and_copies_it() {
@@ -191,6 +206,18 @@ mod tests {
         assert_eq!(control_of("contact.arc_length").map(|control| control.key), Some("contact.disk"));
         assert_eq!(control_of("load.force[1]").map(|control| control.label), Some("Force y"));
         assert!(control_of("robot.disks[1]").is_none());
+    }
+
+    #[test]
+    fn a_noise_can_be_typed_auto_and_a_number() {
+        let noise = control("prior.position_noise").expect("a row");
+        let mut scenario = Scenario::default();
+        assert_eq!((noise.text(&scenario), noise.value(&scenario)), (("auto".into(), ""), None));
+        noise.enter(&mut scenario, "0.2").expect("a number");
+        assert_eq!(scenario.prior.position_noise, Estimated::Known(0.0002));
+        assert!(noise.enter(&mut scenario, "off").is_err());
+        noise.enter(&mut scenario, " Auto ").expect("auto");
+        assert_eq!(scenario.prior.position_noise, Estimated::AUTO);
     }
 
     #[test]

@@ -36,9 +36,8 @@ fn used((key, value): &(&'static str, Value)) -> String {
     let page = || PAGE_KEYS.iter().find(|known| known.name == *key).map(|known| known.quantity);
     let quantity = keys::find(key).map(|key| key.quantity).or_else(page).unwrap_or(Quantity::Word);
     let shown = match value {
-        Value::Word(word) => (*word).into(),
+        Value::Word(word) | Value::Off(word) => (*word).into(),
         Value::Words(words) => words.join(", "),
-        Value::Off => "off".into(),
         other => other.told(quantity, Units::Shown),
     };
     let name = refusal::called(key).unwrap_or(key);

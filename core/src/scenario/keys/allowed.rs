@@ -74,6 +74,8 @@ pub enum Allowed {
     Some(&'static [&'static str]),
     /// A number of 0 or more, or the word `off`.
     Threshold,
+    /// A number from 0 to one end, or the word `auto`.
+    Estimated(Limit),
     /// Three numbers, each at most this far from 0.
     Vector(f64),
     /// Arc lengths of disks, rising.
@@ -157,6 +159,9 @@ impl Allowed {
             Self::Words(words) => quoted(words, " or "),
             Self::Some(words) => format!("a list of any of {}, each at most once", quoted(words, ", ")),
             Self::Threshold => format!("a finite number, {} or more, or \"off\"", amount(0.0)),
+            Self::Estimated(most) => {
+                format!("{}, or \"auto\"", range(Limit::At(0.0), most, quantity, units))
+            }
             Self::Vector(most) => format!("three numbers, [x, y, z], each from {} to {}", amount(-most), amount(most)),
             Self::Disks => "a list of arc lengths in rising order, each above 0 and at most robot.length".into(),
             Self::NextDisk { before, length } => format!(
@@ -268,6 +273,10 @@ impl Key {
         match allowed {
             Allowed::Range(..) => number(&|value| (!allowed.has(value)).then_some(allowed)),
             Allowed::Threshold => number(&|value| (!NOT_NEGATIVE.has(value)).then_some(allowed)),
+            Allowed::Estimated(most) => {
+                let range = Allowed::Range(Limit::At(0.0), most);
+                number(&|value| (!range.has(value)).then_some(allowed))
+            }
             Allowed::Bend { theta_l } => number(&|value| {
                 let bend = if theta_l { bend_from_theta_l(value) } else { value };
                 bend_refused(&scenario.robot.segment(), bend)

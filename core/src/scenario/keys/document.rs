@@ -39,6 +39,7 @@ fn meaning(key: &Key) -> String {
     let mut text = key.sentence.to_owned();
     match key.allowed {
         Allowed::Threshold => text += " Or \"off\".",
+        Allowed::Estimated(_) => text += " Or \"auto\": estimated from the still stretch before the motion.",
         Allowed::Words(_) | Allowed::Some(_) => {
             text = format!("{}. {text}", key.allowed.words(key.quantity, Units::Si))
         }

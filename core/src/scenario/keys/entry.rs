@@ -14,6 +14,9 @@ macro_rules! whole {
 macro_rules! threshold {
     ($($path:ident).+) => { Access::Threshold(|s| s.$($path).+, |s, value| s.$($path).+ = value) };
 }
+macro_rules! estimated {
+    ($($path:ident).+) => { Access::Estimated(|s| s.$($path).+, |s, value| s.$($path).+ = value) };
+}
 macro_rules! vector {
     ($($path:ident).+) => { Access::Vector(|s| &s.$($path).+, |s, value| s.$($path).+ = value) };
 }
@@ -44,7 +47,7 @@ macro_rules! some_of {
         )
     };
 }
-pub(super) use {either, number, one_of, some_of, threshold, vector, whole};
+pub(super) use {either, estimated, number, one_of, some_of, threshold, vector, whole};
 
 pub(super) const fn key(
     path: &'static str,

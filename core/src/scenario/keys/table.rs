@@ -3,6 +3,7 @@
 mod calibration;
 mod detection;
 mod experiment;
+mod prior;
 
 use crate::scenario::keys::entry::{between, either, key, one_of, some_of, whole};
 use crate::scenario::keys::quantity::Quantity::{Count, Word};
@@ -32,6 +33,7 @@ pub const GROUPS: &[Group] = &[
     Group { path: "filter", sentence: "The moving average over the tracker's readings." },
     Group { path: "detection", sentence: "The detectors, their thresholds, and when they apply." },
     Group { path: "estimation", sentence: "How a contact is placed." },
+    Group { path: "prior", sentence: "What the calibration filter takes for granted." },
 ];
 
 const DIAMETERS: Allowed = between(1e-6, 1.0);
@@ -42,8 +44,8 @@ const RUN: fn(&Scenario) -> (f64, f64) = |s| (0.0, s.motion.end);
 /// Everything that can be set; the keys of a group stand together.
 pub const KEYS: &[Key] = &ALL;
 
-const ALL: [Key; PARTS[0].len() + PARTS[1].len() + PARTS[2].len()] = joined(&PARTS);
-const PARTS: [&[Key]; 3] = [experiment::KEYS, calibration::KEYS, JUDGING];
+const ALL: [Key; PARTS[0].len() + PARTS[1].len() + PARTS[2].len() + PARTS[3].len()] = joined(&PARTS);
+const PARTS: [&[Key]; 4] = [experiment::KEYS, calibration::KEYS, JUDGING, prior::KEYS];
 
 /// Several tables as one.
 const fn joined<const N: usize>(parts: &[&[Key]]) -> [Key; N] {

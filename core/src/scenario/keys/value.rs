@@ -12,10 +12,10 @@ pub enum Value {
     Whole(u64),
     /// One of the words that the key knows.
     Word(&'static str),
+    /// A number that is switched off, by the word that stands in its place.
+    Off(&'static str),
     /// Some of the words that the key knows.
     Words(Vec<&'static str>),
-    /// A threshold that is switched off.
-    Off,
     /// Several numbers.
     List(Vec<f64>),
     /// Something that the key cannot hold, as it was written.
@@ -42,12 +42,11 @@ impl Value {
         match self {
             Self::Number(value) => number(*value),
             Self::Whole(value) => value.to_string(),
-            Self::Word(word) => format!("\"{word}\""),
+            Self::Word(word) | Self::Off(word) => format!("\"{word}\""),
             Self::Words(words) => {
                 let words: Vec<_> = words.iter().map(|word| format!("\"{word}\"")).collect();
                 format!("[{}]", words.join(", "))
             }
-            Self::Off => "\"off\"".into(),
             Self::List(values) => format!("[{}]", values.iter().map(|&v| number(v)).collect::<Vec<_>>().join(", ")),
             Self::Other(text) => text.clone(),
         }

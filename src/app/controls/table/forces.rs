@@ -18,7 +18,7 @@ pub const PRELOAD_NOTE: &str = "A preload pulls on all three backbones alike, an
     bound for independent errors grows with the preload.";
 
 /// One part of a vector.
-const fn part(
+pub(super) const fn part(
     path: &'static str,
     of: &str,
     part: usize,
