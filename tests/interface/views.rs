@@ -38,8 +38,7 @@ impl Page {
         for command in commands {
             match command {
                 Command::Seek(time) => self.cursor = time,
-                Command::SetXi1(threshold) => self.scenario.detection.xi1 = threshold,
-                Command::SetXi2(threshold) => self.scenario.detection.xi2 = threshold,
+                Command::SetThreshold(method, threshold) => *self.scenario.detection.of_mut(method) = threshold,
                 Command::SetArmedFrom(time) => self.scenario.detection.armed_from = time,
                 #[allow(unreachable_patterns)]
                 _ => {}
@@ -125,7 +124,7 @@ fn dragging_a_threshold_sets_it_live_and_keeps_the_scale() {
         .log
         .iter()
         .map(|command| match command {
-            Command::SetXi2(threshold) => threshold.value().expect("on"),
+            Command::SetThreshold(Method::Fcd, threshold) => threshold.value().expect("on"),
             other => panic!("{other:?}"),
         })
         .collect();
@@ -143,7 +142,11 @@ fn dragging_the_force_threshold_sets_xi1() {
     let label = harness.get_by_label("ξ1 on plot").rect();
     let from = pos2(point(plot, 4.0, 0.0).x, label.center().y);
     drag(&mut harness, from, from - vec2(0.0, 20.0));
-    let raised = harness.state().log.iter().all(|c| matches!(c, Command::SetXi1(Threshold::On(x)) if *x > 0.03));
+    let raised = harness
+        .state()
+        .log
+        .iter()
+        .all(|c| matches!(c, Command::SetThreshold(Method::Jfd, Threshold::On(x)) if *x > 0.03));
     assert!(raised && !harness.state().log.is_empty(), "{:?}", harness.state().log);
 }
 
@@ -157,7 +160,9 @@ fn a_threshold_can_be_typed() {
     harness.key_press(Key::Enter);
     harness.run();
     match harness.state().log.last() {
-        Some(Command::SetXi2(Threshold::On(value))) => assert!((value - 0.0035).abs() < 1e-12, "{value}"),
+        Some(Command::SetThreshold(Method::Fcd, Threshold::On(value))) => {
+            assert!((value - 0.0035).abs() < 1e-12, "{value}")
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -167,12 +172,19 @@ fn a_threshold_can_be_switched_off_and_on_again() {
     let mut harness = wide();
     harness.get_by_label("ξ2 on plot, on or off").click();
     harness.run();
-    assert!(matches!(harness.state().log[..], [Command::SetXi2(Threshold::OFF)]), "{:?}", harness.state().log);
+    assert!(
+        matches!(harness.state().log[..], [Command::SetThreshold(Method::Fcd, Threshold::OFF)]),
+        "{:?}",
+        harness.state().log
+    );
     assert!(harness.state().run.detection().is_none());
     harness.get_by_label("ξ2 on plot, on or off").click();
     harness.run();
     let last = harness.state().log.last();
-    assert!(matches!(last, Some(Command::SetXi2(Threshold::On(xi2))) if (xi2 - 0.007).abs() < 1e-12), "{last:?}");
+    assert!(
+        matches!(last, Some(Command::SetThreshold(Method::Fcd, Threshold::On(xi2))) if (xi2 - 0.007).abs() < 1e-12),
+        "{last:?}"
+    );
 }
 
 #[test]
