@@ -7,6 +7,7 @@
 
 mod analyze;
 mod draw;
+mod estimating;
 mod figure;
 mod interrupt;
 mod link;

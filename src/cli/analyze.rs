@@ -2,10 +2,11 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Format as Drawing};
+use super::estimating::{Estimating, method};
 use super::output::{Failure, NewFile, Table};
 use super::report::{Report, print, too_many};
 use centrode_core::detect::outlook::outlooks;
-use centrode_core::detect::{Method, Settings};
+use centrode_core::detect::{Settings, judge};
 use centrode_core::record::log::frame::{Frame, Setting};
 use centrode_core::record::log::{
     self, Commands, Format, Log, LogError, MAX_BYTES, Mapping, Options, Rate, Setup, assemble,
@@ -15,7 +16,7 @@ use centrode_core::scenario::link::Page;
 use centrode_core::scenario::{Detectors, Scenario};
 use centrode_core::study::about::About;
 use centrode_core::study::export::signed;
-use centrode_core::study::report::Tally;
+use centrode_core::study::report::{Conclusions, Tally};
 use centrode_core::study::timeline::Timeline;
 use clap::Args;
 use std::fs::File;
@@ -63,6 +64,8 @@ pub struct AnalyzeArgs {
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    estimating: Estimating,
     /// Write every channel at loop rate to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -103,6 +106,7 @@ impl AnalyzeArgs {
     /// Reads, judges and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let (mut scenario, rate) = self.scenario.resolved()?;
+        let (detector, after) = (self.estimating.detector()?, self.estimating.after()?);
         if !self.detectors.is_empty() {
             scenario.detection.detectors = self.detectors()?;
         }
@@ -158,17 +162,14 @@ impl AnalyzeArgs {
             file.finish()?;
         }
         let about = About::new(&log, &assembled);
-        let report = Report::new(plan.scenario().clone(), tally, replay.events(), None, Some(about));
+        let judged = judge(&assembled.recording, &Settings::of(plan));
+        let conclusions = Conclusions::of(&judged, &assembled.recording, detector, &after);
+        let report = Report::new(plan.scenario().clone(), tally, replay.events(), None, conclusions, Some(about));
         print(out, &report, self.json)
     }
 
     fn detectors(&self) -> Result<Detectors, Failure> {
-        let of = |name: &String| {
-            Method::ALL.iter().copied().find(|method| method.key() == name).ok_or_else(|| {
-                let known = Method::KEYS.join(", ");
-                Failure::Input(format!("--detectors: there is no detector called {name:?}; known are: {known}"))
-            })
-        };
+        let of = |name: &String| method("--detectors", name);
         Ok(Detectors::of(&self.detectors.iter().map(of).collect::<Result<Vec<_>, _>>()?))
     }
 

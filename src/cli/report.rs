@@ -1,8 +1,11 @@
 //! What a run or a log comes to, printed.
 
 use super::output::{Failure, json};
+use centrode_core::detect::calibration::noise::Whiteness;
+use centrode_core::detect::estimates::Estimated;
 use centrode_core::detect::{Detection, Event};
 use centrode_core::plant::{Happening, PlantEvent};
+use centrode_core::scenario::Listed;
 use centrode_core::study::about::About;
 use centrode_core::study::course::{Measure, measure};
 use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
@@ -22,6 +25,23 @@ pub fn too_many(TooMany { time }: TooMany) -> Failure {
         "--json lists every threshold crossing, {MAX_CROSSINGS} at most, and at {time} s there are more: raise \
          the thresholds, or leave --json away"
     ))
+}
+
+/// One estimate of a place.
+fn placed(out: &mut impl Write, estimate: &Estimated) -> std::io::Result<()> {
+    let Estimated { after, estimator, location, contact_time, kinds, .. } = estimate;
+    let mm = |x: f64| x * 1e3;
+    write!(out, "placed      {after:.2} s after the alarm, by {}: {:.2} mm", estimator.word(), mm(location.mean))?;
+    if location.low < location.high {
+        write!(out, ", 95 % between {:.2} and {:.2} mm", mm(location.low), mm(location.high))?;
+    }
+    if let Some(began) = contact_time {
+        write!(out, "; since {began:.3} s")?;
+    }
+    for (kind, share) in kinds {
+        write!(out, ", {kind} {:.0} %", share * 100.0)?;
+    }
+    writeln!(out)
 }
 
 /// At most this many events are listed in the table; JSON holds them all.
@@ -66,6 +86,17 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             writeln!(out, "located     at {:.2} mm", mm(*location))?;
         }
         None => writeln!(out, "detected    nothing by the centrode")?,
+    }
+    for estimate in &report.estimates {
+        placed(out, estimate)?;
+    }
+    if let Some(test) = report.whiteness.filter(Whiteness::fails) {
+        writeln!(
+            out,
+            "warning     innovations are not white (p = {:.0e}): thresholds of cusum and glr, and intervals of places, hold for \
+             white ones; see prior.colour, prior.drift and prior.position_noise",
+            test.p_value
+        )?;
     }
     for (name, peak, unit) in [
         ("deviation", report.peak.deviation.map(|p| (p.time, mm(p.value))), "mm"),

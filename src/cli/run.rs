@@ -5,14 +5,15 @@
 
 use super::ScenarioArgs;
 use super::draw::{self, Format};
+use super::estimating::Estimating;
 use super::logfile::LogFile;
 use super::output::{Failure, NewFile, Table};
 use super::report::{Report, print, too_many};
-use centrode_core::run::Simulation;
+use centrode_core::run::{MAX_KEPT, Run, Simulation};
 use centrode_core::scenario::Plan;
 use centrode_core::scenario::link::Page;
 use centrode_core::study::export::signed;
-use centrode_core::study::report::Tally;
+use centrode_core::study::report::{Conclusions, Tally};
 use centrode_core::study::timeline::{Timeline, simulated};
 use clap::Args;
 use std::io::Write;
@@ -26,6 +27,8 @@ pub struct RunArgs {
     /// Print JSON instead of a table.
     #[arg(long)]
     json: bool,
+    #[command(flatten)]
+    estimating: Estimating,
     /// Write every channel at loop rate to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
@@ -42,6 +45,7 @@ impl RunArgs {
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
         let scenario = self.scenario.scenario()?;
         let plan = Plan::new(&scenario).map_err(|error| Failure::Input(error.to_string()))?;
+        let (detector, after) = (self.estimating.detector()?, self.estimating.after()?);
         let format = self.figure.as_deref().map(|path| Format::of("--figure", path)).transpose()?;
         let mut csv =
             self.csv.as_deref().map(|path| Table::create(path, true, scenario.detection.detectors)).transpose()?;
@@ -74,8 +78,15 @@ impl RunArgs {
         if let Some(log) = log {
             log.finish()?;
         }
+        // A run that can be kept is looked at once more, as a whole.
+        let conclusions = if plan.samples() <= MAX_KEPT {
+            let run = Run::new(plan.clone());
+            Conclusions::of(&run.judged, &run.recording, detector, &after)
+        } else {
+            Conclusions::default()
+        };
         let truth = Some((&plan, simulation.plant_events()));
-        let report = Report::new(scenario, tally, simulation.events(), truth, None);
+        let report = Report::new(scenario, tally, simulation.events(), truth, conclusions, None);
         print(out, &report, self.json)
     }
 }

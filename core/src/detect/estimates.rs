@@ -1,6 +1,7 @@
 //! Where the contact is that an alarm told of, at the alarm and as more is read.
 
 use super::alarm::Event;
+use super::calibration::STATES;
 use super::calibration::marginal::{Estimate, Place, Question};
 use super::calibration::watched::Watched;
 use super::evidence::Evidence;
@@ -26,6 +27,51 @@ pub struct Estimated {
     pub contact_time: Option<f64>,
     /// Probability of each kind of contact; empty where the estimator does not say.
     pub kinds: BTreeMap<&'static str, f64>,
+    /// What the readings before the contact say of the robot's calibration; null where the estimator does not say.
+    pub calibration: Option<Calibrated>,
+}
+
+/// An error of the calibration, as it was estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Error {
+    /// The estimate.
+    pub mean: f64,
+    /// Its standard deviation.
+    pub deviation: f64,
+}
+
+/// Errors of the calibration, as they were estimated. SI units; with the meaning and sign of the keys of `calibration`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Calibrated {
+    /// Offset of the tracker's frame along x, y and z of {B}, m.
+    pub frame: [Error; 3],
+    /// Its turn about them, rad.
+    pub frame_turn: [Error; 3],
+    /// Relative error of L.
+    pub length: Error,
+    /// Relative error of the bend.
+    pub bend_scale: Error,
+    /// Offset of the bend, rad.
+    pub bend_offset: Error,
+    /// Offset of δ, rad.
+    pub delta: Error,
+    /// Latency beyond the nominal one, s.
+    pub latency: Error,
+}
+
+impl Calibrated {
+    fn of([means, deviations]: &[[f64; STATES]; 2]) -> Self {
+        let at = |i: usize| Error { mean: means[i], deviation: deviations[i] };
+        Self {
+            frame: [at(0), at(1), at(2)],
+            frame_turn: [at(3), at(4), at(5)],
+            length: at(6),
+            bend_scale: at(7),
+            bend_offset: at(8),
+            delta: at(9),
+            latency: at(10),
+        }
+    }
 }
 
 /// With what contacts are placed.
@@ -69,19 +115,22 @@ pub fn estimates(known: &Known, event: &Event, after: &[f64]) -> Vec<Estimated> 
         if known.entries.last().is_none_or(|last| last.time < time) {
             return None;
         }
-        let estimated =
-            |location, contact_time, kinds| Some(Estimated { after, time, estimator, location, contact_time, kinds });
+        let plain = |location| {
+            let (contact_time, kinds, calibration) = (None, BTreeMap::new(), None);
+            Estimated { after, time, estimator, location, contact_time, kinds, calibration }
+        };
         match estimator {
-            Estimator::Eq24 => estimated(eq24(known, time)?, None, BTreeMap::new()),
+            Estimator::Eq24 => Some(plain(eq24(known, time)?)),
             Estimator::Settled => {
                 let settings = known.settings;
                 let whole = settings.filter.length as f64 / settings.loop_rate;
-                estimated(eq24(known, time + whole)?, None, BTreeMap::new())
+                Some(plain(eq24(known, time + whole)?))
             }
             Estimator::Marginal => {
                 let estimate = marginal(known.watched?, placing, event.raised, time)?;
                 let kinds = estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect();
-                estimated(estimate.place, Some(estimate.began), kinds)
+                let calibration = Some(Calibrated::of(&estimate.calibration));
+                Some(Estimated { contact_time: Some(estimate.began), kinds, calibration, ..plain(estimate.place) })
             }
         }
     };

@@ -1,7 +1,10 @@
 //! What a run or a log comes to: crossings, events, the detection, and the largest values judged.
 
-use crate::detect::{Crossing, Detection, Event, Method};
+use crate::detect::calibration::noise::Whiteness;
+use crate::detect::estimates::Estimated;
+use crate::detect::{Crossing, Detection, Event, Judged, Method};
 use crate::plant::{Happening, PlantEvent};
+use crate::record::Recording;
 use crate::run::{Run, Sample};
 use crate::scenario::{Plan, Scenario, Thresholds};
 use serde::Serialize;
@@ -9,6 +12,9 @@ use thiserror::Error;
 
 /// A run with more crossings than this has no list of them: 40 MB as JSON.
 pub const MAX_CROSSINGS: usize = 1_000_000;
+
+/// Estimates are made at the alarm and so long after it, s, unless somebody asks otherwise.
+pub const AFTER: &[f64] = &[0.0, 0.1, 0.25, 0.5];
 
 /// A run crosses thresholds too often for a list.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
@@ -39,6 +45,10 @@ pub struct Report<L = ()> {
     pub more: u64,
     /// The first alarm of fcd; null when there is none.
     pub detection: Option<Found>,
+    /// Where the contact is that the first alarm of one detector told of, at several times after it.
+    pub estimates: Vec<Estimated>,
+    /// Whether the calibration filter's innovations are white before that; null where it did not watch, or too briefly.
+    pub whiteness: Option<Whiteness>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
     pub peak: Peaks,
     /// How the log was read; left out for a simulation.
@@ -54,8 +64,10 @@ impl<L> Report<L> {
         tally: Tally,
         events: &[Event],
         truth: Option<(&Plan, &[PlantEvent])>,
+        conclusions: Conclusions,
         log: Option<L>,
     ) -> Self {
+        let Conclusions { estimates, whiteness } = conclusions;
         let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
         let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
@@ -63,7 +75,20 @@ impl<L> Report<L> {
         let detection = detection.map(|detection| Found { delay: delay(&detection), detection });
         let Tally { samples, crossings: Crossings { listed, more, .. }, peak, .. } = tally;
         let events = events.to_vec();
-        Self { scenario, samples, contact, plant, crossings: listed, events, more, detection, peak, log }
+        Self {
+            scenario,
+            samples,
+            contact,
+            plant,
+            crossings: listed,
+            events,
+            more,
+            detection,
+            estimates,
+            whiteness,
+            peak,
+            log,
+        }
     }
 
     /// Of a run with every crossing: what was simulated, or a log with how it was read. `scenario` is what is set, of which a log is
@@ -80,7 +105,25 @@ impl<L> Report<L> {
             crossings = later;
         }
         let truth = (!run.is_recorded()).then(|| (&run.plan, run.plant_events()));
-        Ok(Self::new(scenario, tally, run.events(), truth, log))
+        let conclusions = Conclusions::of(&run.judged, &run.recording, Method::Cusum, AFTER);
+        Ok(Self::new(scenario, tally, run.events(), truth, conclusions, log))
+    }
+}
+
+/// What is concluded from a run as a whole.
+#[derive(Debug, Clone, Default)]
+pub struct Conclusions {
+    /// [`Report::estimates`].
+    pub estimates: Vec<Estimated>,
+    /// [`Report::whiteness`].
+    pub whiteness: Option<Whiteness>,
+}
+
+impl Conclusions {
+    /// Of a recording as it was judged: the contact that the first alarm of `detector` told of, at these times after it (s).
+    #[must_use]
+    pub fn of(judged: &Judged, recording: &Recording, detector: Method, after: &[f64]) -> Self {
+        Self { estimates: judged.estimates(recording, detector, after), whiteness: judged.whiteness() }
     }
 }
 
