@@ -157,7 +157,8 @@ fn what_a_detector_needs_is_computed_only_where_it_judges() {
 fn the_velocity_deviation_is_defined_at_rest_and_is_the_speed_times_the_deviation() {
     let run = run(&preset("bench"));
     let whole = run.plan.scenario().filter.length as usize;
-    for sample in run.samples().skip(whole) {
+    assert!(run.samples().take(whole - 1).all(|sample| sample.judgement.velocity.is_nan()));
+    for sample in run.samples().skip(whole - 1) {
         let judgement = sample.judgement;
         let expected = if judgement.speed == 0.0 { 0.0 } else { judgement.speed * judgement.deviation };
         assert_eq!(judgement.velocity, expected, "at {} s", sample.time);
