@@ -1,7 +1,8 @@
 //! What is concluded from a recording: filter, detectors, events, and the place of the contact.
 //!
-//! Reading order: [`filter`], [`nominal`] (what the tracker would read at the command), [`evidence`] (what is computed at each instant before any threshold), [`statistic`] (what each detector
-//! holds against its threshold, and whether it counts), [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it).
+//! Reading order: [`filter`], [`nominal`] (what the tracker would read at the command), [`evidence`] (what is computed
+//! at each instant before any threshold), [`statistic`] (what each detector holds against its threshold, and whether it counts),
+//! [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it).
 //!
 //! Nothing here knows whether a recording was simulated.
 

@@ -77,7 +77,8 @@ struct Lamp {
     low_since: Option<f64>,
 }
 
-/// The detectors that judge, one instant after the other. What it keeps grows with the events, and with the crossings unless they are taken.
+/// The detectors that judge, one instant after the other. What it keeps grows with the events, and with the crossings unless they are
+/// taken.
 #[derive(Debug, Clone)]
 pub struct Alarms {
     settings: Settings,

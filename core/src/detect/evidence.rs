@@ -35,9 +35,9 @@ pub struct Judgement {
     /// ε_c(θL) of the free model at the commanded shape, N·m: what ξ1 follows when it follows the shape.
     pub shape_bound: f64,
     /// ‖c_m − c_s‖ with the centrode of the commanded pose that is sampled, delayed and averaged as the tracker's readings are, m;
-    /// not defined while ω_s = 0, nor where its detector is switched off.
+    /// not defined while ω_s = 0, before the average is whole, nor where its detector is switched off.
     pub consistent: f64,
-    /// ‖ω_s‖·‖c_m − c_s‖, m/s; 0 while ω_s = 0.
+    /// ‖ω_s‖·‖c_m − c_s‖, m/s; 0 while ω_s = 0, and not defined before the average is whole.
     pub velocity: f64,
     /// The cumulative sum of the log likelihood ratio of a contact, natural logarithm, 0 or more; not defined where its detector is
     /// switched off.
@@ -135,27 +135,35 @@ struct Averaged {
     length: u64,
     /// Readings until the average is whole again after a gap.
     missing: u64,
+    /// Readings in a row, as far as they matter.
+    taken: u64,
 }
 
 impl Averaged {
     fn new(settings: &Settings) -> Self {
         let filter = PoseFilter::new(&settings.filter, settings.loop_rate);
-        Self { empty: filter.clone(), filter, length: settings.filter.length, missing: 0 }
+        Self { empty: filter.clone(), filter, length: settings.filter.length, missing: 0, taken: 0 }
     }
 
     /// The motion as of the next reading. After a gap the average begins anew, and nothing is known until it is whole again: noise
     /// in an average of a few readings would raise alarms.
     fn motion(&mut self, reading: &Reading) -> FilteredMotion {
         if reading.position.x.is_nan() {
-            (self.filter, self.missing) = (self.empty.clone(), self.length);
+            (self.filter, self.missing, self.taken) = (self.empty.clone(), self.length, 0);
             return FilteredMotion::UNDEFINED;
         }
         let motion = self.filter.push(reading);
+        self.taken = self.length.min(self.taken + 1);
         if self.missing == 0 {
             return motion;
         }
         self.missing -= 1;
         FilteredMotion::UNDEFINED
+    }
+
+    /// Whether the average has all its readings.
+    fn is_whole(&self) -> bool {
+        self.taken == self.length
     }
 }
 
@@ -208,6 +216,8 @@ impl Observer {
         let (segment, epsilon_tau) = (&self.segment, self.epsilon_tau);
         let (sensor_centrode, deviation) = deviation(&expected.centrode, &motion);
         let speed = motion.twist.angular.norm();
+        // Noise in an average of a few readings would raise alarms of detectors that do not wait.
+        let whole = self.sensor.is_whole();
         let consistent = self.consistent.as_mut().map_or(f64::NAN, |(reading, average)| {
             let model = average.motion(reading);
             centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm())
@@ -221,8 +231,12 @@ impl Observer {
             common_bound: segment.common_error_bound(configuration, tau_lc, epsilon_tau),
             independent_bound: segment.independent_error_bound(configuration, tau_lc, epsilon_tau),
             shape_bound: expected.shape_bound,
-            consistent,
-            velocity: if speed == 0.0 { 0.0 } else { speed * deviation },
+            consistent: if whole { consistent } else { f64::NAN },
+            velocity: match whole {
+                false => f64::NAN,
+                true if speed == 0.0 => 0.0,
+                true => speed * deviation,
+            },
             cusum: self.held.cusum,
             glr: self.held.glr,
         };
