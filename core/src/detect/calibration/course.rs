@@ -149,6 +149,8 @@ pub struct Heard {
     pub innovation: Six,
     /// The cumulative sum.
     pub cusum: f64,
+    /// Probability that a contact has begun by now.
+    pub contact: f64,
     /// The generalised likelihood ratio; NaN where the moments have no bank.
     pub glr: f64,
 }
@@ -167,7 +169,7 @@ impl Listener {
         let innovation = self.filter.step(&moment.stage, &moment.residual(reading));
         let cusum = self.cusum.step(moment, &innovation);
         let glr = moment.bank.as_ref().map_or(f64::NAN, |bank| self.glr.step(bank, &innovation));
-        Heard { innovation, cusum, glr }
+        Heard { innovation, cusum, contact: self.cusum.probability(), glr }
     }
 }
 

@@ -4,6 +4,7 @@ use super::course::{Model, Moment};
 use super::linear::Linear;
 use super::{Command, Six};
 use crate::model::contact::{clamped_tip, free_tip};
+use libm::{exp, log};
 use nalgebra::SMatrix;
 
 /// The contact that it looks for, as a share of the backbone.
@@ -53,13 +54,41 @@ pub fn age(model: &Model, commands: impl Iterator<Item = Command>) -> usize {
 pub struct Cusum {
     /// The statistic, a log likelihood ratio (natural), not negative.
     pub value: f64,
+    /// Log odds of a contact by now; −∞ before one can have begun.
+    odds: Odds,
 }
+
+/// Odds of a contact, as a natural logarithm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Odds(f64);
+
+impl Default for Odds {
+    fn default() -> Self {
+        Self(f64::NEG_INFINITY)
+    }
+}
+
+/// Probability with which a contact begins at any one reading while the robot moves: one in ten seconds at 100 Hz.
+pub const HAZARD: f64 = 1e-3;
 
 impl Cusum {
     /// Takes the innovation of the next reading.
     #[inline]
     pub fn step(&mut self, moment: &Moment, innovation: &Six) -> f64 {
-        self.value = (self.value + moment.design.dot(innovation) - moment.half).max(0.0);
+        let added = moment.design.dot(innovation) - moment.half;
+        self.value = (self.value + added).max(0.0);
+        if moment.command.rate != 0.0 {
+            // Shiryaev's recursion: what was, and what begins now.
+            self.odds.0 = log((exp(self.odds.0) + HAZARD) / (1.0 - HAZARD)) + added;
+            // Beyond this the logarithm of the exponential would not be a number.
+            self.odds.0 = self.odds.0.min(600.0);
+        }
         self.value
+    }
+
+    /// The probability that a contact has begun by now, with [`HAZARD`] beforehand and the contact that the sum looks for.
+    #[must_use]
+    pub fn probability(&self) -> f64 {
+        1.0 / (1.0 + exp(-self.odds.0))
     }
 }

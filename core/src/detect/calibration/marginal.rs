@@ -7,7 +7,7 @@
 use super::course::{Model, Moment, residual};
 use super::filter::{Designer, Filter, Response, Stage};
 use super::linear::{self, Linear};
-use super::signature::Shapes;
+use super::signature::{PLACES, SPACING, Shapes};
 use super::spline::Spline;
 use super::{Command, STATES, Six, States};
 use crate::model::Pose;
@@ -16,8 +16,6 @@ use libm::{exp, sqrt};
 
 /// Beginnings are tried up to so many readings before the alarm.
 const BEFORE: usize = 100;
-/// Places at which the likelihood is computed, evenly over the backbone; between them it is a cubic spline.
-pub const PLACES: usize = 20;
 /// Beginnings whose log likelihood is this much below the best are left out.
 const NEGLIGIBLE: f64 = 16.0;
 /// The calibration is estimated up to so many readings before the contact.
@@ -217,7 +215,7 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
             let (whole, part) = (began as usize, began.fract());
             let met = bends[whole] + part * (bends[whole + 1] - bends[whole]);
             let sums = likelihoods(&shapes, |k| &stages[k], &innovations, &bends, whole, met, side);
-            Row { began, spline: Spline::new(sums) }
+            Row { began, spline: Spline::new(SPACING, sums) }
         };
         let mut rows: Vec<Row> = Vec::new();
         let mut best = f64::NEG_INFINITY;

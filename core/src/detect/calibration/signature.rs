@@ -1,10 +1,20 @@
 //! Signatures at the places that are tried, at the price of a few multiplications.
 
-use super::glr::{PLACES, places};
 use crate::model::contact::branch::{Branch, Surface};
 use crate::model::contact::{Meeting, Planar, free_tip};
 use libm::{cos, sincos};
 use std::f64::consts::PI;
+
+/// Places that are tried, the first of which is the base: a contact there changes nothing.
+pub const PLACES: usize = 20;
+/// From one place to the next, in units of L: the last is nearer to the end disk than half a spacing.
+pub const SPACING: f64 = 0.98 / (PLACES - 1) as f64;
+
+/// The places, in units of L.
+#[must_use]
+pub fn places() -> [f64; PLACES] {
+    std::array::from_fn(|i| i as f64 * SPACING)
+}
 
 /// Bends of first contact between which shapes of a touching beam are interpolated.
 const NODES: usize = 4;
@@ -21,7 +31,7 @@ pub struct Shapes {
 struct Touching {
     /// Bends of first contact, rad: Chebyshev points.
     met: [f64; NODES],
-    /// By place, then by bend of first contact.
+    /// By place but the base, then by bend of first contact.
     branches: Vec<[Branch; NODES]>,
 }
 
@@ -42,7 +52,7 @@ impl Shapes {
         let branch = |place: f64, met: f64| {
             Branch::sketched(Meeting { place, bend: met, side }, Surface::Plane, met + side * 2.0 * half)
         };
-        let branches = places().map(|place| met.map(|met| branch(place, met))).to_vec();
+        let branches = places()[1..].iter().map(|&place| met.map(|met| branch(place, met))).collect();
         Self { length, touching: Some(Touching { met, branches }) }
     }
 
@@ -123,8 +133,9 @@ impl Met<'_> {
                 let free = touching.met.map(|node| free_tip(node + since));
                 std::array::from_fn(|place| {
                     let mut off = Planar::zeros();
+                    let Some(branches) = place.checked_sub(1).map(|above| &touching.branches[above]) else { return off };
                     for i in 0..NODES {
-                        let tip = touching.branches[place][i].tip(touching.met[i] + since).position;
+                        let tip = branches[i].tip(touching.met[i] + since).position;
                         off += (tip - free[i]) * weights[i];
                     }
                     off
@@ -148,6 +159,10 @@ mod tests {
         for (i, place) in places().into_iter().enumerate() {
             let clamp = (clamped_tip(place, met, bend) - free_tip(bend)) * length;
             assert!((clamp - Planar::from(clamps[i])).norm() < 1e-16);
+            if i == 0 {
+                assert_eq!((clamps[0], planes[0]), ([0.0; 2], [0.0; 2]));
+                continue;
+            }
             let exact = Branch::new(Meeting { place, bend: met, side: 1.0 }, Surface::Plane, 1.3);
             let plane = (exact.tip(bend).position - free_tip(bend)) * length;
             assert!((plane - Planar::from(planes[i])).norm() < 1e-6, "{place}: {plane} {:?}", planes[i]);
