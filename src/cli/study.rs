@@ -1,11 +1,13 @@
 //! `centrode study`: what every threshold would cost, and which to take.
 
+mod compare;
 mod table;
 mod text;
 mod work;
 
 use super::ScenarioArgs;
 use super::draw::{self, Format};
+use super::estimating::Estimating;
 use super::output::{Failure, NewFile, json};
 use centrode_core::detect::Method;
 use centrode_core::scenario::link::Page;
@@ -46,6 +48,14 @@ pub struct StudyArgs {
     /// The share of runs without contact that may alarm, above 0 and below 1; 0.05 by itself.
     #[arg(long, value_name = "RATE")]
     false_alarms: Option<f64>,
+    /// Compare these detectors, at their own thresholds and at equal false alarms, and place the contacts that one of them finds.
+    #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
+    detectors: Vec<String>,
+    /// With --detectors: the share of runs without contact that may alarm, above 0 and below 1.
+    #[arg(long, value_name = "RATE", default_value_t = 0.01)]
+    rate: f64,
+    #[command(flatten)]
+    estimating: Estimating,
     /// Print JSON instead of a summary, in SI units: every cell with its curves.
     #[arg(long)]
     json: bool,
@@ -147,6 +157,9 @@ impl StudyArgs {
         }
         let linked = page.and_then(|page| usize::try_from(page.repeats).ok());
         let repeats = self.repeats.or(linked).unwrap_or(200);
+        if !self.detectors.is_empty() {
+            return compare::execute(self, &scenario, repeats, out);
+        }
         let study = Study::new(self.spec(&scenario, repeats)?).map_err(|error| Failure::Input(error.to_string()))?;
         let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
         // A file that cannot be written is said before the work, not after it.

@@ -110,7 +110,8 @@ impl Settings {
 }
 
 /// What a robot is told at each of the tracker's readings, by a plan.
-fn commands(plan: &Plan, clock: &Clock) -> impl Iterator<Item = Command> {
+#[must_use]
+pub fn commands(plan: &Plan, clock: &Clock) -> impl Iterator<Item = Command> {
     let motion = plan.scenario().motion.clone();
     let (rate, latency, end) = (clock.rate, clock.latency, plan.time(plan.samples() - 1));
     let command = move |k: u64| {

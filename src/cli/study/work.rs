@@ -2,6 +2,7 @@
 
 use crate::cli::interrupt;
 use centrode_core::study::Job;
+use centrode_core::study::compare::Compare;
 use centrode_core::study::tuning::Study;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::iter::{ParallelBridge, ParallelIterator};
@@ -13,21 +14,42 @@ use std::sync::{Mutex, PoisonError};
 /// Runs begin in order, so that what an interrupt leaves are the first repeats. What they come to are whole numbers:
 /// the order in which threads finish does not show.
 pub fn work(study: Study) -> (Study, bool) {
+    let counted = study.clone();
+    let make = |piece| {
+        let piece = study.piece(piece);
+        (piece.0, study.run(piece))
+    };
+    let study = repeat(counted, study.progress().of, make, |counted, (piece, firsts)| {
+        counted.add(piece, &firsts);
+    });
+    let partial = !study.missing().is_empty();
+    (study, partial)
+}
+
+/// The same of a comparison.
+pub fn compare(compare: Compare) -> (Compare, bool) {
+    let counted = compare.clone();
+    let make = |repeat| (repeat, compare.run(repeat));
+    let compare = repeat(counted, compare.progress().of, make, |counted, (repeat, outcome)| {
+        counted.add(repeat, outcome);
+    });
+    let partial = !compare.progress().is_complete();
+    (compare, partial)
+}
+
+/// Makes pieces of work on all cores until an interrupt comes, and counts each in.
+fn repeat<T: Send, P: Send>(counted: T, of: u64, make: impl Fn(u64) -> P + Sync, add: impl Fn(&mut T, P) + Sync) -> T {
     interrupt::defer();
-    let of = study.progress().of;
     let bar = bar(of);
-    let counted = Mutex::new(study.clone());
+    let counted = Mutex::new(counted);
     let wanted = (0..of).take_while(|_| !interrupt::noted());
     wanted.par_bridge().for_each(|piece| {
-        let piece = study.piece(piece);
-        let firsts = study.run(piece);
-        counted.lock().unwrap_or_else(PoisonError::into_inner).add(piece.0, &firsts);
+        let made = make(piece);
+        add(&mut counted.lock().unwrap_or_else(PoisonError::into_inner), made);
         bar.inc(1);
     });
     bar.finish_and_clear();
-    let study = counted.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let partial = !study.missing().is_empty();
-    (study, partial)
+    counted.into_inner().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// On a terminal only: a program that reads standard error wants none.

@@ -1,0 +1,154 @@
+//! Detectors side by side.
+
+use super::StudyArgs;
+use super::work;
+use crate::cli::estimating::method;
+use crate::cli::output::{Failure, json};
+use centrode_core::detect::Method;
+use centrode_core::scenario::Scenario;
+use centrode_core::scenario::keys;
+use centrode_core::scenario::keys::Quantity;
+use centrode_core::study::Job;
+use centrode_core::study::compare::{At, Compare, Comparison, Place, Spec, with};
+use serde::Serialize;
+use std::io::Write;
+
+/// What is printed as JSON. SI units; null where a value is not defined.
+#[derive(Serialize)]
+struct Report<'a> {
+    scenario: &'a Scenario,
+    /// Whether it was interrupted.
+    partial: bool,
+    #[serde(flatten)]
+    comparison: &'a Comparison,
+}
+
+/// Compares the detectors that were given.
+pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut impl Write) -> Result<(), Failure> {
+    if !args.sweeps.is_empty() || args.csv.is_some() || args.svg.is_some() || args.rule.is_some() {
+        let line = "--detectors compares detectors; --sweep, --method, --csv and --svg belong to a study of thresholds";
+        return Err(Failure::Input(line.into()));
+    }
+    let methods: Vec<Method> =
+        args.detectors.iter().map(|name| method("--detectors", name)).collect::<Result<_, _>>()?;
+    let scenario = with(scenario, &methods);
+    let spec = Spec {
+        scenario: scenario.clone(),
+        repeats,
+        rate: args.rate,
+        detector: args.estimating.detector()?,
+        after: args.estimating.after()?,
+    };
+    let compare = Compare::new(spec).map_err(|error| Failure::Input(error.to_string()))?;
+    let (compare, partial) = work::compare(compare);
+    let comparison = compare.comparison();
+    if args.json {
+        json(out, &Report { scenario: &scenario, partial, comparison: &comparison })?;
+    } else {
+        text(out, &comparison)?;
+    }
+    out.flush()?;
+    if partial {
+        let progress = compare.progress();
+        let line =
+            format!("interrupted after {} of {} repeats; the results written are partial", progress.done, progress.of);
+        return Err(Failure::Interrupted(line));
+    }
+    Ok(())
+}
+
+/// A number, or a dash where there is none.
+fn shown(value: f64, digits: usize) -> String {
+    if value.is_finite() { format!("{value:.digits$}") } else { "–".into() }
+}
+
+fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
+    let Comparison { repeats, rate, detectors, bound, white, places } = comparison;
+    let runs = if *repeats == 1 { "run" } else { "runs" };
+    writeln!(
+        out,
+        "{repeats} {runs} without and as many with contact; {} of {} without have white innovations",
+        white.count, white.of
+    )?;
+    let own: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.own)).collect();
+    let equal: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.equal)).collect();
+    let percent = format!("at the threshold that {} of runs without contact exceed", share(*rate));
+    for (title, rows, with_bound) in [("at the scenario's thresholds", own, false), (&percent, equal, true)] {
+        writeln!(out, "\n{title}")?;
+        let head = ["detector", "threshold", "", "false", "found", "early", "median", "90 %"];
+        let [detector, threshold, none, false_alarms, found, early, median, ninety] = head;
+        writeln!(
+            out,
+            "{detector:<16}{threshold:>10} {none:<5}{false_alarms:>9}{found:>9}{early:>9}{median:>9} s{ninety:>9} s"
+        )?;
+        for (name, at) in rows {
+            detected(out, name, at.as_ref())?;
+        }
+        if let Some(bound) = bound.as_ref().filter(|_| with_bound) {
+            let (median, ninety) = (shown(bound.median, 3), shown(bound.ninety, 3));
+            let name = "no test can beat";
+            writeln!(
+                out,
+                "{name:<16}{:>10} {:<5}{:>9}{:>9}{:>9}{median:>9} s{ninety:>9} s",
+                "",
+                "",
+                share(*rate),
+                "",
+                ""
+            )?;
+        }
+    }
+    if !places.is_empty() {
+        let head = ["placed by", "after", "contacts", "bias", "RMS", "bound", "95 % hold", "width"];
+        let [by, after, contacts, bias, rms, bound, hold, width] = head;
+        writeln!(
+            out,
+            "\n{by:<12}{after:>7} s{contacts:>9}{bias:>9} mm{rms:>8} mm{bound:>8} mm{hold:>11}{width:>9} mm"
+        )?;
+        places.iter().try_for_each(|of| place(out, of))?;
+    }
+    Ok(())
+}
+
+fn share(share: f64) -> String {
+    if share.is_finite() { format!("{:.1} %", share * 100.0) } else { "–".into() }
+}
+
+/// One detector at one threshold.
+fn detected(out: &mut impl Write, name: &str, at: Option<&At>) -> std::io::Result<()> {
+    let Some(at) = at else { return writeln!(out, "{name:<16}{:>10}", "off") };
+    let quantity = Method::ALL
+        .iter()
+        .find(|method| method.key() == name)
+        .and_then(|method| keys::find(method.threshold_key()))
+        .map_or(Quantity::Count, |key| key.quantity);
+    writeln!(
+        out,
+        "{name:<16}{:>10} {:<5}{:>9}{:>9}{:>9}{:>9} s{:>9} s",
+        shown(quantity.shown(at.threshold), 3),
+        quantity.unit(),
+        share(at.false_alarms.rate),
+        share(at.found.rate),
+        share(at.early.rate),
+        shown(at.median, 3),
+        shown(at.ninety, 3)
+    )
+}
+
+/// Where a contact is.
+fn place(out: &mut impl Write, place: &Place) -> std::io::Result<()> {
+    let mm = |x: f64| shown(x * 1e3, 3);
+    let coverage = place.coverage.as_ref().map_or_else(|| "–".into(), |share| format!("{:.1} %", share.rate * 100.0));
+    writeln!(
+        out,
+        "{:<12}{:>7.2} s{:>9}{:>9} mm{:>8} mm{:>8} mm{:>11}{:>9} mm",
+        place.estimator,
+        place.after,
+        place.count,
+        mm(place.bias),
+        mm(place.rms),
+        place.bound.map_or_else(|| "–".into(), mm),
+        coverage,
+        mm(place.width)
+    )
+}
