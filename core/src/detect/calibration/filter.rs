@@ -93,12 +93,13 @@ impl Designer {
     }
 }
 
-fn drifts(belief: &Belief) -> bool {
+/// Whether the tracker is thought to drift.
+pub(super) fn drifts(belief: &Belief) -> bool {
     belief.deviations[DRIFT..].iter().any(|deviation| *deviation != 0.0)
 }
 
 /// What is left of the drift after `interval` (s).
-fn kept(belief: &Belief, interval: f64) -> f64 {
+pub(super) fn kept(belief: &Belief, interval: f64) -> f64 {
     if drifts(belief) { exp(-interval / belief.drift_time) } else { 1.0 }
 }
 

@@ -83,7 +83,7 @@ pub struct Question<'a> {
 #[must_use]
 pub fn estimate(history: &History, question: &Question) -> Option<Estimate> {
     let began = beginning(history, question.alarm)?;
-    let calibrated = calibrate(history, began.saturating_sub(CLEAR))?;
+    let calibrated = calibrate(history, began.saturating_sub(CLEAR), STEPS)?;
     placed(history, began, &calibrated, question)
 }
 
@@ -140,19 +140,30 @@ struct Calibrated {
     deviations: States,
 }
 
-/// Gauss and Newton on the readings up to `until`.
-fn calibrate(history: &History, until: usize) -> Option<Calibrated> {
+/// The innovations of all readings, by the model that is linear about the errors that they tell of themselves. By the nominal one they
+/// keep what is of second order in the errors, and are not white even where everything is as it is thought to be.
+#[must_use]
+pub fn innovations(history: &History) -> Vec<Six> {
+    let History { model, moments, readings } = history;
+    let Some(calibrated) = calibrate(history, readings.len(), 1) else { return Vec::new() };
+    let errors = linear::errors(&calibrated.states, &model.belief.deviations);
+    about_errors(history, errors, moments.len()).innovations
+}
+
+/// Gauss and Newton on the readings up to `until`, in so many steps at most.
+fn calibrate(history: &History, until: usize, steps: usize) -> Option<Calibrated> {
     let History { model, moments, readings } = history;
     let mut states = States::zeros();
     let mut deviations = States::zeros();
-    for _ in 0..STEPS {
+    for _ in 0..steps {
         let errors = linear::errors(&states, &model.belief.deviations);
         let mut designer = Designer::new(&model.belief, model.noise);
         let mut filter = Filter::default();
-        for (moment, reading) in moments.iter().zip(*readings).take(until + 1) {
+        for (moment, reading) in moments.iter().zip(*readings).take(until.saturating_add(1)) {
             let linear = Linear::at(model.length, &moment.command, &errors);
             let stage = designer.next(moment.command.time, &linear);
-            filter.step(&stage, &about(&linear, reading, &errors));
+            let off = residual(&linear.pose, &linear.axes, reading);
+            filter.step(&stage, &(off + linear.by_error * States::from(errors)));
         }
         let step = (filter.states - states).amax();
         states = filter.states;
@@ -167,9 +178,31 @@ fn calibrate(history: &History, until: usize) -> Option<Calibrated> {
     Some(Calibrated { states, deviations })
 }
 
-/// The residual from what errors of zero would give, by the model that is linear about others.
-fn about(linear: &Linear, reading: &Pose, errors: &linear::Errors) -> Six {
-    residual(&linear.pose, &linear.axes, reading) + linear.by_error * States::from(*errors)
+/// Readings by a model that is linear about some errors of the calibration.
+struct About {
+    stages: Vec<Stage>,
+    innovations: Vec<Six>,
+    /// The bend that the tracker measures, rad.
+    bends: Vec<f64>,
+}
+
+/// The first `count` readings by the model that is linear about these errors.
+fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> About {
+    let History { model, moments, readings } = history;
+    // Drift is no constant: about zero.
+    errors[super::DRIFT..].fill(0.0);
+    let mut designer = Designer::new(&model.belief, model.noise);
+    let mut filter = Filter::default();
+    let mut all = About { stages: Vec::new(), innovations: Vec::new(), bends: Vec::new() };
+    for (moment, reading) in moments.iter().zip(*readings).take(count) {
+        let linear = Linear::at(model.length, &moment.command, &errors);
+        let stage = designer.next(moment.command.time, &linear);
+        let off = residual(&linear.pose, &linear.axes, reading);
+        all.innovations.push(filter.step(&stage, &(off + linear.by_error * States::from(errors))));
+        all.bends.push(linear.bend + off[0]);
+        all.stages.push(stage);
+    }
+    all
 }
 
 /// Beginnings that were tried, and the log likelihood ratios there.
@@ -183,20 +216,8 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let Question { alarm, kinds, parts } = *question;
     let History { model, moments, readings } = history;
     let last = readings.len().min(moments.len()).checked_sub(1)?;
-    let mut errors = linear::errors(&calibrated.states, &model.belief.deviations);
-    // Drift is no constant: about zero.
-    errors[super::DRIFT..].fill(0.0);
-    let mut designer = Designer::new(&model.belief, model.noise);
-    let mut filter = Filter::default();
-    let (mut stages, mut innovations, mut bends) = (Vec::new(), Vec::new(), Vec::new());
-    for (moment, reading) in moments.iter().zip(*readings) {
-        let linear = Linear::at(model.length, &moment.command, &errors);
-        let stage = designer.next(moment.command.time, &linear);
-        let off = residual(&linear.pose, &linear.axes, reading);
-        innovations.push(filter.step(&stage, &(off + linear.by_error * States::from(errors))));
-        bends.push(linear.bend + off[0]);
-        stages.push(stage);
-    }
+    let errors = linear::errors(&calibrated.states, &model.belief.deviations);
+    let About { stages, innovations, bends } = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
     let first = alarm.saturating_sub(BEFORE);
     let moving = |k: usize| moments[k].command.rate != 0.0;
@@ -242,7 +263,6 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
         rows.sort_by(|a, b| a.began.total_cmp(&b.began));
         all.push((kind, rows));
     }
-    let errors = linear::errors(&calibrated.states, &model.belief.deviations);
     let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
     let moments: Vec<Command> = moments.iter().map(|moment| moment.command).collect();
     weigh(&all, length, &moments, [errors, deviations])

@@ -29,8 +29,8 @@ impl Watching {
         let measured = if self.noise.iter().all(Option::is_some) {
             None
         } else {
-            let still = &readings.poses[..noise::still(&readings.commands)];
-            readings.commands.first().and_then(|command| noise::measured(length, command, still))
+            let still = noise::still(&readings.commands);
+            noise::measured(length, &self.belief, &readings.commands[..still], &readings.poses[..still])
         };
         let other = measured.unwrap_or(self.declared);
         let [position, orientation, colour] = self.noise;

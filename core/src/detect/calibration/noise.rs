@@ -1,7 +1,8 @@
 //! What readings say of their own noise: its size while the robot stands still, and whether innovations are white.
 
+use super::filter::{drifts, kept};
 use super::linear::Linear;
-use super::{Command, Noise, Six};
+use super::{Belief, Command, DRIFT, Noise, Six};
 use crate::model::Pose;
 use libm::{exp, log, sqrt};
 
@@ -26,10 +27,12 @@ pub fn still(commands: &[Command]) -> usize {
 
 /// Noise of readings that were taken while the robot stood still; `None` where there are fewer than [`STILL`].
 ///
-/// Deviations are those of successive differences, which know no offset, undone of the correlation; the correlation is that of
-/// successive readings, and none where it may be by chance. Nothing is below [`FLOOR`].
+/// The correlation is that of successive readings, and none where it may be by chance. Where the tracker is thought to drift, the
+/// deviations are those of successive differences, less what drift adds to them, and what is left is taken for white. Nothing is
+/// below [`FLOOR`].
 #[must_use]
-pub fn measured(length: f64, command: &Command, readings: &[Pose]) -> Option<Noise> {
+pub fn measured(length: f64, belief: &Belief, commands: &[Command], readings: &[Pose]) -> Option<Noise> {
+    let command = commands.first()?;
     if readings.len() < STILL {
         return None;
     }
@@ -54,6 +57,19 @@ pub fn measured(length: f64, command: &Command, readings: &[Pose]) -> Option<Noi
     let colour = share + (1.0 + 3.0 * share) / count;
     let error = 1.0 / sqrt(shares.len().max(1) as f64 * count);
     let colour = if colour > PLAIN * error { colour.min(MOST) } else { 0.0 };
+    if drifts(belief) {
+        let steps = |of: [usize; 3]| {
+            let square =
+                |pair: &[Six]| of.iter().map(|&i| (pair[1][i] - pair[0][i]) * (pair[1][i] - pair[0][i])).sum::<f64>();
+            all.windows(2).map(square).sum::<f64>() / (6.0 * (count - 1.0))
+        };
+        let interval = (commands.last()?.time - command.time) / (commands.len().max(2) - 1) as f64;
+        let drift = belief.deviations[DRIFT..].iter().map(|sigma| sigma * sigma).sum::<f64>() / 3.0;
+        let place = steps(places) - drift * (1.0 - kept(belief, interval));
+        let (position, orientation) = (sqrt(place.max(0.0)), sqrt(steps(turns)));
+        let (position, orientation) = (position.max(FLOOR.position), orientation.max(FLOOR.orientation));
+        return Some(Noise { position, orientation, colour: 0.0 });
+    }
     Some(Noise {
         position: sqrt(variance(places)).max(FLOOR.position),
         orientation: sqrt(variance(turns)).max(FLOOR.orientation),
@@ -160,11 +176,12 @@ mod tests {
 
     #[test]
     fn noise_is_measured_where_the_robot_stands_still() {
-        let command = Command { time: 0.0, bend: 0.0, rate: 0.0, delta: 0.0 };
+        let command = |k: u32| Command { time: 0.01 * f64::from(k), bend: 0.0, rate: 0.0, delta: 0.0 };
+        let commands: Vec<_> = (0..300).map(command).collect();
         for (colour, position, orientation) in [(0.0, 5e-5, 2e-4), (0.5, 5e-4, 2e-3), (0.8, 1e-4, 1e-3)] {
             let all: Vec<Noise> = (1..40)
                 .map(|seed| still(colour, position, orientation, seed))
-                .map(|readings| measured(0.03, &command, &readings).expect("enough"))
+                .map(|readings| measured(0.03, &Belief::default(), &commands, &readings).expect("enough"))
                 .collect();
             let mean = |of: fn(&Noise) -> f64| all.iter().map(of).sum::<f64>() / all.len() as f64;
             // Of three coordinates two move, of three angles one.
@@ -174,8 +191,8 @@ mod tests {
             assert!((mean(|noise| noise.colour) - colour).abs() < 0.02, "{colour}: {}", mean(|noise| noise.colour));
         }
         let exact = vec![planar(0.0, 0.03, 0.0); 100];
-        assert_eq!(measured(0.03, &command, &exact), Some(FLOOR));
-        assert_eq!(measured(0.03, &command, &exact[..STILL - 1]), None);
+        assert_eq!(measured(0.03, &Belief::default(), &commands, &exact), Some(FLOOR));
+        assert_eq!(measured(0.03, &Belief::default(), &commands, &exact[..STILL - 1]), None);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Readings as the calibration filter has heard them: what estimates and pictures are made from.
 
 use super::course::{Heard, Model, Planner};
-use super::marginal::{Estimate, History, Question, estimate};
+use super::marginal::{Estimate, History, Question, estimate, innovations};
 use super::monitor::Readings;
 use super::noise::Whiteness;
 
@@ -41,7 +41,8 @@ impl Watched {
             Some(alarm) => self.at(alarm - BEFORE_ALARM).map_or(0, |last| last + 1),
             None => self.heard.len(),
         };
-        let innovations: Vec<_> = self.heard.iter().take(until).map(|heard| heard.innovation).collect();
-        Whiteness::of(&innovations)
+        let (commands, readings) = (self.readings.commands.get(..until)?, self.readings.poses.get(..until)?);
+        let moments = Planner::all(&self.model, commands, false);
+        Whiteness::of(&innovations(&History { model: &self.model, moments: &moments, readings }))
     }
 }

@@ -123,7 +123,7 @@ impl Default for Thresholds {
             xi2: Threshold::On(0.007),
             consistent: Threshold::On(0.002_45),
             velocity: Threshold::On(0.001),
-            cusum: Threshold::On(8.35),
+            cusum: Threshold::On(9.3),
             glr: Threshold::On(9.2),
             armed_from: 5.0,
             arming: Arming::Paper,
