@@ -39,6 +39,7 @@ mod map;
 #[cfg(feature = "cli")]
 mod map_command;
 mod misprints;
+mod monitor;
 mod paper;
 mod properties;
 #[cfg(feature = "gui-tests")]
