@@ -6,6 +6,7 @@
     reason = "tests read files, run programs and wait for them"
 )]
 
+mod bounds;
 mod calibration;
 mod calibration_filter;
 #[cfg(feature = "cli")]
