@@ -2,7 +2,8 @@
 //!
 //! Reading order: [`filter`], [`nominal`] (what the tracker would read at the command), [`evidence`] (what is computed
 //! at each instant before any threshold), [`statistic`] (what each detector holds against its threshold, and whether it counts),
-//! [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it).
+//! [`alarm`] (crossings and events), [`judge`](mod@judge) (all of it), [`estimates`]
+//! (where the contact is, after an alarm), [`force`] (how hard it presses).
 //!
 //! Nothing here knows whether a recording was simulated.
 
@@ -11,6 +12,7 @@ pub mod calibration;
 pub mod estimates;
 pub mod evidence;
 pub mod filter;
+pub mod force;
 pub mod judge;
 pub mod nominal;
 pub mod outlook;

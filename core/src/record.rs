@@ -71,6 +71,8 @@ pub struct Recording {
     pub entries: Vec<Entry>,
     /// The truth at each entry; none when a rig made the recording.
     pub truth: Option<Vec<Truth>>,
+    /// Whether commands are what the robot was told; false where they were estimated from the tracker's own readings.
+    pub commanded: bool,
 }
 
 impl Recording {
@@ -94,7 +96,7 @@ impl Recording {
             entries.push(entry);
             truth.push(true_now);
         }
-        Self { entries, truth: Some(truth) }
+        Self { entries, truth: Some(truth), commanded: true }
     }
 
     /// Truth: time of the first entry in contact, s; none when nothing touches or the truth is not known.

@@ -141,7 +141,7 @@ impl AnalyzeArgs {
         let figure = self.figure.as_deref().map(NewFile::create).transpose()?;
         let entries = &assembled.recording.entries;
         let mut timeline = figure.is_some().then(|| Timeline::new(plan.scenario(), entries.len()));
-        let mut replay = Replay::new(entries, &Settings::of(plan));
+        let mut replay = Replay::new(&assembled.recording, &Settings::of(plan));
         let mut tally = Tally::new(self.json);
         while let Some(sample) = replay.next() {
             tally.add(&sample, &replay.take_crossings(), &plan.scenario().detection).map_err(too_many)?;

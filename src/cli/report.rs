@@ -3,6 +3,7 @@
 use super::output::{Failure, json};
 use centrode_core::detect::calibration::noise::Whiteness;
 use centrode_core::detect::estimates::Estimated;
+use centrode_core::detect::force::Force;
 use centrode_core::detect::{Detection, Event};
 use centrode_core::plant::{Happening, PlantEvent};
 use centrode_core::scenario::Listed;
@@ -89,6 +90,14 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     }
     for estimate in &report.estimates {
         placed(out, estimate)?;
+    }
+    if let Some(Force { time, mean, low, high, truth }) = report.force {
+        write!(out, "presses     with {mean:.2} N at {time:.3} s, between {low:.2} and {high:.2} N")?;
+        write!(out, " with load cells that err by {} %", report.scenario.load_cells.epsilon_tau * 100.0)?;
+        match truth {
+            Some(truth) => writeln!(out, "; in truth {truth:.2} N")?,
+            None => writeln!(out)?,
+        }
     }
     if let Some(test) = report.whiteness.filter(Whiteness::fails) {
         writeln!(

@@ -6,10 +6,12 @@
     reason = "tests read files, run programs and wait for them"
 )]
 
+mod bounds;
 mod calibration;
 mod calibration_filter;
 #[cfg(feature = "cli")]
 mod cli;
+mod contact_force;
 mod detectors;
 #[cfg(feature = "cli")]
 mod documented;
@@ -39,6 +41,7 @@ mod map;
 #[cfg(feature = "cli")]
 mod map_command;
 mod misprints;
+mod monitor;
 mod paper;
 mod properties;
 #[cfg(feature = "gui-tests")]

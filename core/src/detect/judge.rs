@@ -9,10 +9,9 @@ use super::estimates::{Estimated, Known, Placing, estimates};
 use super::evidence::{Evidence, Observer};
 use super::nominal::{Clock, Nominal};
 use super::statistic::Method;
-use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Assumed, Assumption, Segment};
+use crate::plant::Plant;
 use crate::record::{Entry, Recorder, Recording};
-use crate::scenario::motion::command;
 use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Prior, Scenario, Thresholds};
 
 /// What a recording is judged with.
@@ -28,6 +27,8 @@ pub struct Settings {
     pub filter: Filter,
     /// When the tracker reads, and how its marker is mounted.
     pub clock: Clock,
+    /// Whether commands are what the robot was told: against ones that come from the readings the calibration filter cannot watch.
+    pub commanded: bool,
     /// With what the calibration filter watches.
     pub watching: Watching,
     /// The detectors that judge, their thresholds, and when they are looked at.
@@ -49,6 +50,7 @@ impl Settings {
             loop_rate: scenario.loop_rate,
             filter: scenario.filter.clone(),
             clock: Clock::of(plan),
+            commanded: true,
             watching: watching(scenario),
             thresholds: scenario.detection.clone(),
             assumption: assumption(plan),
@@ -56,10 +58,17 @@ impl Settings {
         }
     }
 
-    /// Whether a detector judges that rests on the calibration filter.
+    /// The same for a recording, which knows where its commands come from.
+    #[must_use]
+    pub fn on(&self, recording: &Recording) -> Self {
+        Self { commanded: recording.commanded, ..self.clone() }
+    }
+
+    /// Whether a detector judges that rests on the calibration filter, on commands with which that can work.
     #[must_use]
     pub fn watches(&self) -> bool {
-        [Method::Cusum, Method::Glr].into_iter().any(|method| self.thresholds.detectors.has(method))
+        let judges = |method| self.thresholds.detectors.has(method);
+        self.commanded && [Method::Cusum, Method::Glr].into_iter().any(judges)
     }
 
     /// The calibration filter before the first of some entries; none where no detector that judges rests on it.
@@ -87,7 +96,19 @@ impl Settings {
                 }
             }
             let model = self.watching.model(self.segment.length, &still);
-            Monitor::new(&self.watching, &self.clock, &model, commands(plan, &self.clock))
+            Monitor::new(&self.watching, &self.clock, &model, self.commands(plan))
+        })
+    }
+
+    /// What a robot is told at each of the tracker's readings by a plan, until it rests: as [`Readings::of`] has it of the recording.
+    pub fn commands(&self, plan: &Plan) -> impl Iterator<Item = Command> {
+        let (plant, mut nominal) = (Plant::new(plan), Nominal::new(&self.segment, &self.clock));
+        let Clock { rate, latency, .. } = self.clock;
+        let rest = plan.scenario().motion.finish + latency + 1.0 / rate + 1.0 / self.loop_rate;
+        let times = (0..plan.samples()).map(|k| plan.time(k)).take_while(move |time| *time <= rest);
+        times.filter_map(move |time| {
+            let (configuration, theta_l_rate) = plant.command(time);
+            nominal.commanded_at(time, configuration, theta_l_rate).map(|expected| expected.command())
         })
     }
 
@@ -101,25 +122,22 @@ impl Settings {
             detectors
         };
         // Every field by name, so that one to come is thought of.
-        let Self { segment, epsilon_tau, loop_rate, filter, clock, watching, thresholds: _, assumption: _, placing: _ } =
-            self;
+        let Self {
+            segment,
+            epsilon_tau,
+            loop_rate,
+            filter,
+            clock,
+            commanded,
+            watching,
+            thresholds: _,
+            assumption: _,
+            placing: _,
+        } = self;
         (segment, epsilon_tau, loop_rate) == (&other.segment, &other.epsilon_tau, &other.loop_rate)
             && (filter, clock, computed(self)) == (&other.filter, &other.clock, computed(other))
-            && *watching == other.watching
+            && (commanded, watching) == (&other.commanded, &other.watching)
     }
-}
-
-/// What a robot is told at each of the tracker's readings, by a plan.
-#[must_use]
-pub fn commands(plan: &Plan, clock: &Clock) -> impl Iterator<Item = Command> {
-    let motion = plan.scenario().motion.clone();
-    let (rate, latency, end) = (clock.rate, clock.latency, plan.time(plan.samples() - 1));
-    let command = move |k: u64| {
-        let time = k as f64 / rate;
-        let (theta_l, theta_l_rate) = command(&motion, time - latency);
-        Command { time, bend: bend_from_theta_l(theta_l), rate: 0.0 - theta_l_rate, delta: motion.delta }
-    };
-    (0..).map(command).take_while(move |command| command.time <= end)
 }
 
 /// With what the calibration filter of a scenario watches.
@@ -193,19 +211,20 @@ pub struct Judged {
 /// ```
 #[must_use]
 pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
+    let settings = settings.on(recording);
     let monitor = settings.monitor(&recording.entries);
-    let mut observer = Observer::new(settings, monitor);
+    let mut observer = Observer::new(&settings, monitor);
     let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
     let watched = observer.watched();
     let judged = Judged { settings: settings.clone(), evidence, watched, crossings: Vec::new(), events: Vec::new() };
-    judged.again(recording, settings.clone())
+    judged.again(recording, settings)
 }
 
 impl Judged {
     /// The same evidence, of `recording`, with settings that [see the same](Settings::see_as): nothing is filtered again.
     #[must_use]
     pub fn again(mut self, recording: &Recording, settings: Settings) -> Self {
-        self.settings = settings;
+        self.settings = settings.on(recording);
         let mut alarms = Alarms::new(&self.settings);
         for (entry, evidence) in recording.entries.iter().zip(&self.evidence) {
             alarms.look(entry.time, &entry.configuration, &evidence.judgement);

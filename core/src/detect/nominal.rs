@@ -1,5 +1,6 @@
 //! What the tracker would read if the robot stood as commanded: the readings that the real ones are compared with.
 
+use super::calibration::Command;
 use crate::model::orientation::to_euler;
 use crate::model::{Configuration, Mat3, Pose, Segment, Vec3};
 use crate::record::Entry;
@@ -47,6 +48,15 @@ pub struct Expected {
     pub reading: Reading,
 }
 
+impl Expected {
+    /// The command behind the reading.
+    #[must_use]
+    pub fn command(&self) -> Command {
+        let Self { delivered, configuration, bend_rate, .. } = self;
+        Command { time: *delivered, bend: configuration.bend(), rate: *bend_rate, delta: configuration.delta() }
+    }
+}
+
 /// The tracker's readings as the free model has them, one for each of the tracker's.
 #[derive(Debug, Clone)]
 pub struct Nominal {
@@ -72,19 +82,24 @@ impl Nominal {
 
     /// Takes the next entry; where the tracker has a new reading in it, what is expected of that.
     pub fn take(&mut self, entry: &Entry) -> Option<Expected> {
+        self.commanded_at(entry.time, entry.configuration, entry.theta_l_rate)
+    }
+
+    /// The same of what is commanded at a time (s), with θ̇L (rad/s): nothing else of an entry matters.
+    pub fn commanded_at(&mut self, time: f64, configuration: Configuration, theta_l_rate: f64) -> Option<Expected> {
         let Clock { rate, latency, .. } = self.clock;
         // θL falls as the bend grows; at rest φ̇ is 0, not −0.
-        self.commands.push_back((entry.time, entry.configuration, 0.0 - entry.theta_l_rate));
+        self.commands.push_back((time, configuration, 0.0 - theta_l_rate));
         if self.commands.len() as u64 > MAX_FILTER {
             self.commands.pop_front();
             self.given_up = true;
         }
-        let refresh = refresh(rate, entry.time);
+        let refresh = refresh(rate, time);
         if self.refresh == Some(refresh) {
             return None;
         }
         self.refresh = Some(refresh);
-        let taken = (refresh / rate).min(entry.time) - latency;
+        let taken = (refresh / rate).min(time) - latency;
         let (configuration, bend_rate) = self.commanded(taken);
         let tip = self.segment.arc(configuration).pose(self.segment.length);
         let reading = self.reading(&tip);

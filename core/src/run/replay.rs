@@ -19,9 +19,10 @@ pub struct Replay<'a> {
 impl<'a> Replay<'a> {
     /// Before the first entry.
     #[must_use]
-    pub fn new(entries: &'a [Entry], settings: &Settings) -> Self {
-        let observer = Observer::new(settings, settings.monitor(entries));
-        Self { entries: entries.iter(), observer, alarms: Alarms::new(settings) }
+    pub fn new(recording: &'a Recording, settings: &Settings) -> Self {
+        let (entries, settings) = (&recording.entries, settings.on(recording));
+        let observer = Observer::new(&settings, settings.monitor(entries));
+        Self { entries: entries.iter(), observer, alarms: Alarms::new(&settings) }
     }
 
     /// Takes the crossings so far out, so that a long log does not gather them.
@@ -90,7 +91,7 @@ impl Run {
 
     /// Judges a recording that cannot be made again.
     pub(super) fn judge_again(&mut self, plan: Plan) -> Anew {
-        let settings = Settings::of(&plan);
+        let settings = Settings::of(&plan).on(&self.recording);
         let before = &self.judged.settings;
         let same = settings.see_as(before);
         if same {
@@ -124,7 +125,7 @@ mod tests {
         let simulated = simulate(&bench()).expect("valid");
         let mut run = Run::recorded(simulated.plan.clone(), without_truth(&simulated)).expect("entries");
         assert_eq!((run.events(), run.contact_time(), run.is_recorded()), (simulated.events(), None, true));
-        let replayed = Replay::new(&run.recording.entries, &run.judged.settings);
+        let replayed = Replay::new(&run.recording, &run.judged.settings);
         assert!(
             replayed.zip(run.samples()).all(|(a, b)| a.judgement.residual.to_bits() == b.judgement.residual.to_bits())
         );

@@ -7,7 +7,6 @@ use super::{Job, Progress};
 use crate::detect::calibration::course::{Model, Moment, Planner};
 use crate::detect::calibration::{Command, Noise, bound, noise};
 use crate::detect::estimates::Estimated;
-use crate::detect::judge::commands;
 use crate::detect::{Method, Settings};
 use crate::run::{Run, at_most};
 use crate::scenario::{Detectors, Estimator, Listed, Plan, Scenario, ScenarioError};
@@ -263,7 +262,7 @@ impl Compare {
     fn exact(&self) -> Option<(Vec<Moment>, f64, f64, usize)> {
         let contact = self.plan.contact()?;
         let settings = Settings::of(&self.plan);
-        let commands: Vec<_> = commands(&self.plan, &settings.clock).collect();
+        let commands: Vec<_> = settings.commands(&self.plan).collect();
         let floor = noise::FLOOR;
         let Noise { position, orientation, colour } = settings.watching.declared;
         let colour = colour.max(self.spec.scenario.calibration.colour);

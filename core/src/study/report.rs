@@ -2,11 +2,12 @@
 
 use crate::detect::calibration::noise::Whiteness;
 use crate::detect::estimates::Estimated;
+use crate::detect::force::Force;
 use crate::detect::{Crossing, Detection, Event, Judged, Method};
 use crate::plant::{Happening, PlantEvent};
 use crate::record::Recording;
 use crate::run::{Run, Sample};
-use crate::scenario::{Plan, Scenario, Thresholds};
+use crate::scenario::{Estimator, Plan, Scenario, Thresholds};
 use serde::Serialize;
 use thiserror::Error;
 
@@ -47,6 +48,9 @@ pub struct Report<L = ()> {
     pub detection: Option<Found>,
     /// Where the contact is that the first alarm of one detector told of, at several times after it.
     pub estimates: Vec<Estimated>,
+    /// How hard it presses there, at the last of these times, if it only touches; null where that is not likely, or there are no load
+    /// cells.
+    pub force: Option<Force>,
     /// Whether the calibration filter's innovations are white before that; null where it did not watch, or too briefly.
     pub whiteness: Option<Whiteness>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
@@ -67,7 +71,7 @@ impl<L> Report<L> {
         conclusions: Conclusions,
         log: Option<L>,
     ) -> Self {
-        let Conclusions { estimates, whiteness } = conclusions;
+        let Conclusions { estimates, force, whiteness } = conclusions;
         let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
         let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
@@ -85,6 +89,7 @@ impl<L> Report<L> {
             more,
             detection,
             estimates,
+            force,
             whiteness,
             peak,
             log,
@@ -115,6 +120,8 @@ impl<L> Report<L> {
 pub struct Conclusions {
     /// [`Report::estimates`].
     pub estimates: Vec<Estimated>,
+    /// [`Report::force`].
+    pub force: Option<Force>,
     /// [`Report::whiteness`].
     pub whiteness: Option<Whiteness>,
 }
@@ -123,7 +130,11 @@ impl Conclusions {
     /// Of a recording as it was judged: the contact that the first alarm of `detector` told of, at these times after it (s).
     #[must_use]
     pub fn of(judged: &Judged, recording: &Recording, detector: Method, after: &[f64]) -> Self {
-        Self { estimates: judged.estimates(recording, detector, after), whiteness: judged.whiteness() }
+        let estimates = judged.estimates(recording, detector, after);
+        let marginal = estimates.iter().filter(|estimate| estimate.estimator == Estimator::Marginal);
+        let last = marginal.max_by(|a, b| a.time.total_cmp(&b.time));
+        let force = last.and_then(|last| Force::of(judged, recording, last));
+        Self { estimates, force, whiteness: judged.whiteness() }
     }
 }
 

@@ -85,12 +85,11 @@ impl Readings {
 
 /// A new reading and its command; `None` where either is not known.
 fn heard(expected: &Expected, entry: &Entry, tip_from_marker: &Mat3) -> Option<(Command, Pose)> {
-    let Expected { delivered, configuration, bend_rate, .. } = expected;
+    let command = expected.command();
     let rotation = from_euler(&entry.reading.angles) * tip_from_marker.transpose();
     let pose = Pose { position: entry.reading.position, rotation };
-    let (bend, delta) = (configuration.bend(), configuration.delta());
-    let known = pose.position.sum() + pose.rotation.sum() + bend + delta + bend_rate;
-    known.is_finite().then_some((Command { time: *delivered, bend, rate: *bend_rate, delta }, pose))
+    let known = pose.position.sum() + pose.rotation.sum() + command.bend + command.delta + command.rate;
+    known.is_finite().then_some((command, pose))
 }
 
 /// Readings that are kept of a stream: 1000 s at 100 Hz. Of what comes later there are no estimates.

@@ -42,6 +42,13 @@ impl Touched {
         self.detail.as_deref().copied().or_else(|| self.branch.shape(self.configuration.bend()))
     }
 
+    /// Size of the contact force (N) of a segment with a bending stiffness (N·m²); none where the contact does not hold.
+    #[must_use]
+    pub fn force(&self, stiffness: f64) -> Option<f64> {
+        let touching = self.touching()?;
+        Some(self.branch.meeting().side * touching.force() * stiffness / (self.length * self.length))
+    }
+
     /// Pose at arc length `s` (m) of the backbone, in {B}.
     #[must_use]
     pub fn pose(&self, s: f64) -> Pose {

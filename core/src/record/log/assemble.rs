@@ -164,7 +164,7 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     if source == Commands::Log {
         order.tell([Happening::HeldCommand, Happening::GapInCommands], start, &mut report);
     }
-    let recording = Recording { entries, truth: None };
+    let recording = Recording { entries, truth: None, commanded: source != Commands::Estimated };
     Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start: log.origin + start, fit })
 }
 
