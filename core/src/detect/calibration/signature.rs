@@ -133,7 +133,9 @@ impl Met<'_> {
                 let free = touching.met.map(|node| free_tip(node + since));
                 std::array::from_fn(|place| {
                     let mut off = Planar::zeros();
-                    let Some(branches) = place.checked_sub(1).map(|above| &touching.branches[above]) else { return off };
+                    let Some(branches) = place.checked_sub(1).map(|above| &touching.branches[above]) else {
+                        return off;
+                    };
                     for i in 0..NODES {
                         let tip = branches[i].tip(touching.met[i] + since).position;
                         off += (tip - free[i]) * weights[i];
