@@ -21,7 +21,7 @@ fn views(c: &mut Criterion) {
         find("bench").and_then(|preset| preset.scenario()).and_then(|scenario| simulate(&scenario)).expect("bench");
     let trace = Trace::new(&run);
     let mut group = c.benchmark_group("frame");
-    let options = ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false };
+    let options = ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false, placed: None };
     group.bench_function("scene of the 3D view", |b| b.iter(|| view(black_box(&run), &trace, CURSOR, &options)));
     let context = egui::Context::default();
     centrode::app::theme::install(&context);
@@ -38,7 +38,7 @@ fn views(c: &mut Criterion) {
         b.iter(|| {
             context.run_ui(egui::RawInput::default(), |ui| {
                 let mut out = Vec::new();
-                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &run, &trace, (CURSOR, false), &mut out));
+                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, &run, &trace, (CURSOR, false, None), &mut out));
             })
         });
     });
@@ -49,7 +49,7 @@ fn views(c: &mut Criterion) {
 fn dragging(c: &mut Criterion) {
     let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("bench");
     let mut memo = Memo::new(&scenario);
-    let options = ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false };
+    let options = ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false, placed: None };
     let context = egui::Context::default();
     centrode::app::theme::install(&context);
     let mut state = PlotState::default();

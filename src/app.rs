@@ -153,7 +153,9 @@ impl App {
     /// Whether work for what is on the stage is left to do.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.studies.progress().is_some() || self.tuner.progress().is_some()
+        self.studies.progress().is_some()
+            || self.tuner.progress().is_some()
+            || self.state.stage == Stage::Robot && self.memo.placed().is_working()
     }
 
     /// The page in a line of JSON: state at the cursor, cursor (s), detection of the run (s, m), playing, and a sentence.
@@ -191,6 +193,7 @@ impl App {
         }
         self.memo.update(&self.state.scenario);
         self.study(ui);
+        self.place(ui);
         self.page(ui, &mut out);
         self.apply(ui.ctx(), &mut out);
         if self.memo.update(&self.state.scenario) {
@@ -219,6 +222,13 @@ impl App {
         self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats, moving);
         let frame = ui.input(|input| input.stable_dt);
         if ui.ctx().current_pass_index() == 0 && self.tuner.work(frame) {
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// One more estimate of where the contact is, for the robot's views.
+    fn place(&mut self, ui: &Ui) {
+        if self.state.stage == Stage::Robot && ui.ctx().current_pass_index() == 0 && self.memo.place(self.cursor()) {
             ui.ctx().request_repaint();
         }
     }
@@ -288,6 +298,7 @@ impl App {
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
+        let shown = memo.placed().at(cursor).and_then(|shown| shown.estimate());
 
         if let Some(banner) = &banner {
             panels::log::banner(ui, top, banner, out);
@@ -315,10 +326,22 @@ impl App {
         if robot {
             if let Some(rect) = layout.view {
                 layout::card(ui, "view", rect, |ui| {
-                    viewport::viewport(ui, (run, memo.version()), memo.trace(), (cursor, state.frozen), view, out);
+                    viewport::viewport(
+                        ui,
+                        (run, memo.version()),
+                        memo.trace(),
+                        (cursor, state.frozen, shown),
+                        view,
+                        out,
+                    );
                 });
                 layout::round(ui, rect);
-                chip.show(ui, rect.min + vec2(12.0, 12.0), Phase::at(run, cursor), *prefers_reduced_motion);
+                chip.show(
+                    ui,
+                    rect.min + vec2(12.0, 12.0),
+                    (Phase::at(run, cursor), memo.contact(cursor)),
+                    *prefers_reduced_motion,
+                );
             }
         } else {
             let inputs = stages::Inputs {
@@ -341,7 +364,9 @@ impl App {
             embed::tools(ui, layout.tools, layout.sheet.then_some(state.sheet), out);
         }
         let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
-            Tab::Result => layout::inside(ui, "readout", rect, |ui| panels::readout::readout(ui, run, memo.recorded())),
+            Tab::Result => layout::inside(ui, "readout", rect, |ui| {
+                panels::readout::readout(ui, run, memo.recorded(), (memo.placed(), cursor));
+            }),
             Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
                 // Where they do not fit above each other they are scrolled.
                 let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
@@ -353,7 +378,7 @@ impl App {
                 }
             }),
             Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| {
-                plane::plane(ui, run, memo.trace(), (cursor, state.frozen), out);
+                plane::plane(ui, run, memo.trace(), (cursor, state.frozen, shown), out);
             }),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {

@@ -1,5 +1,6 @@
 //! A run at one instant, as a scene.
 
+pub mod band;
 mod beam;
 pub mod ink;
 mod load;
@@ -12,6 +13,7 @@ pub mod track;
 use crate::scene::palette::Palette;
 use crate::scene::{Camera, Ground, Pose, Scene};
 use beam::Beam;
+use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::model::{self, Arc, Configuration};
 use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
@@ -23,18 +25,20 @@ use track::Trace;
 
 /// How a run is shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ViewOptions {
+pub struct ViewOptions<'a> {
     /// Colours.
     pub palette: Palette,
     /// How far the ring around a fresh detection has run, 0..1; 0 shows none.
     pub pulse: f32,
     /// Whether a beam that only touches is held against the paper's model of it, which freezes the part below.
     pub frozen: bool,
+    /// Where the calibration filter places the contact, as far as that is known.
+    pub placed: Option<&'a Estimate>,
 }
 
 /// The scene of `run`, whose loci are `trace`, at `time` (s): robot, beam, ghost, screw axes, centrode loci, estimate.
 #[must_use]
-pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene {
+pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> Scene {
     let palette = &options.palette;
     let place = run.place(time);
     let (shape, truth) = (run.shape(place), run.truth(place));
@@ -69,10 +73,12 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions) -> Scene
     if let Some(truth) = truth {
         load::load(&mut scene, palette, run, &truth.wrench, &pose(length as f32));
     }
+    // Labels stand off the side from which the segment bends away.
+    let aside = Quat::from_rotation_z(-delta) * Vec3::X * (-1.9 * sizes.disk).copysign(-configuration.bend() as f32);
+    if let Some(placed) = options.placed {
+        signs.band(&mut scene, placed, |s| pose(s as f32), aside);
+    }
     if let Some(detection) = run.detection().filter(|detection| detection.time <= time) {
-        // The label stands off the side from which the segment bends away.
-        let aside =
-            Quat::from_rotation_z(-delta) * Vec3::X * (-1.9 * sizes.disk).copysign(-configuration.bend() as f32);
         let at = pose(detection.location as f32);
         signs.estimate(&mut scene, options.pulse, [at.position, at.point(aside)], detection.location);
     }
@@ -155,7 +161,12 @@ mod tests {
 
     fn at(scenario: &Scenario, time: f64) -> Scene {
         let run = simulate(scenario).expect("valid");
-        view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::LIGHT, pulse: 0.0, frozen: false })
+        view(
+            &run,
+            &Trace::new(&run),
+            time,
+            &ViewOptions { palette: Palette::LIGHT, pulse: 0.0, frozen: false, placed: None },
+        )
     }
 
     fn count(scene: &Scene, shape: Shape) -> usize {
@@ -237,7 +248,7 @@ mod tests {
                         &run,
                         &Trace::new(&run),
                         time,
-                        &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false },
+                        &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false, placed: None },
                     );
                     let solid = scene.tubes.iter().filter(|tube| tube.finish != Finish::Ghost);
                     for &point in solid.flat_map(|tube| &tube.path) {
@@ -259,8 +270,13 @@ mod tests {
         let run = simulate(&scenario).expect("valid");
         let (camera, size) = (home_camera(&run), Vec2::new(800.0, 600.0));
         let tip = |time| {
-            view(&run, &Trace::new(&run), time, &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false })
-                .tubes[0]
+            view(
+                &run,
+                &Trace::new(&run),
+                time,
+                &ViewOptions { palette: Palette::DARK, pulse: 0.0, frozen: false, placed: None },
+            )
+            .tubes[0]
                 .path[48]
         };
         let across = |time| camera.project(tip(time), size).expect("in front").x;

@@ -1,5 +1,6 @@
 //! Scenario, or a log → recording → conclusions → loci, each made anew when what it depends on changes.
 
+pub mod placed;
 pub mod recorded;
 
 use std::rc::Rc;
@@ -10,6 +11,7 @@ use centrode_core::record::log::{Log, LogError, Setup};
 use centrode_core::run::{Anew, Run, at_most, simulate};
 use centrode_core::scenario::{Plan, Scenario, ScenarioError};
 use centrode_core::study::course;
+use placed::Placed;
 use recorded::Recorded;
 
 /// The longest run the page takes, in samples: it keeps every sample, and runs anew at each touch of a slider.
@@ -47,6 +49,9 @@ pub struct Memo {
     recorded: Option<Recorded>,
     trace: Trace,
     version: u64,
+    /// A number that is another for other readings, or readings that were heard otherwise.
+    heard: u64,
+    placed: Placed,
     refusal: Option<Refusal>,
 }
 
@@ -65,8 +70,11 @@ impl Memo {
             run,
             recorded: None,
             version: 0,
+            heard: 0,
+            placed: Placed::default(),
             refusal: None,
         };
+        memo.placed.renew(&memo.run, memo.heard);
         memo.update(scenario);
         memo
     }
@@ -104,6 +112,8 @@ impl Memo {
         if anew > Anew::Events || looks(&self.run) != before {
             self.trace = Trace::new(&self.run);
         }
+        self.heard += u64::from(anew > Anew::Events);
+        self.placed.renew(&self.run, self.heard);
         Ok(())
     }
 
@@ -128,8 +138,27 @@ impl Memo {
     fn show(&mut self, run: Run) {
         self.run = run;
         self.trace = Trace::new(&self.run);
-        self.version += 1;
+        (self.version, self.heard) = (self.version + 1, self.heard + 1);
+        self.placed.renew(&self.run, self.heard);
         self.refusal = self.refusal.take().filter(|refusal| matches!(refusal, Refusal::Scenario(_)));
+    }
+
+    /// Makes one of the estimates that are missing, first the one that is shown at a time (s). Returns whether more are missing.
+    pub fn place(&mut self, time: f64) -> bool {
+        self.placed.work(&self.run, time)
+    }
+
+    /// Where the contact is that its alarm tells of.
+    #[must_use]
+    pub fn placed(&self) -> &Placed {
+        &self.placed
+    }
+
+    /// Probability that a contact has begun by a time (s), by the calibration filter; none where it does not watch.
+    #[must_use]
+    pub fn contact(&self, time: f64) -> Option<f64> {
+        let watched = self.run.judged.watched.as_ref()?;
+        watched.at(time).and_then(|at| watched.heard.get(at)).map(|heard| heard.contact)
     }
 
     /// The last run that was possible.

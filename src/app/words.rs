@@ -3,5 +3,6 @@
 pub mod help;
 pub mod link;
 pub mod log;
+pub mod placed;
 pub mod refusal;
 pub mod story;

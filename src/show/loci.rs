@@ -2,10 +2,11 @@
 //!
 //! A centrode lies within the robot, so all of them shine through it; those of this instant stand before it.
 
-use super::scene_vector;
 use super::track::{self, Spot, Trace};
+use super::{band, scene_vector};
 use crate::scene::palette::Palette;
-use crate::scene::{Color, Label, Line, Marker, Scene, Shape};
+use crate::scene::{Color, Label, Line, Marker, Pose, Scene, Shape};
+use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::detect::{Method, Standing};
 use centrode_core::record::Truth;
 use centrode_core::run::Run;
@@ -119,6 +120,25 @@ impl Signs<'_> {
             anchor: off,
             offset: Vec2::new(-2.0, -2.0),
             text: format!("estimate {:.1} mm", location * 1e3),
+            color,
+        });
+    }
+
+    /// Where the calibration filter places the contact on the backbone, whose poses `pose` gives by arc length (m); the label stands
+    /// `aside` (m) from the likeliest place.
+    pub fn band(&self, scene: &mut Scene, placed: &Estimate, pose: impl Fn(f64) -> Pose, aside: Vec3) {
+        let color = self.palette.constrained;
+        for step in band::steps(placed) {
+            let ends = [step.at - step.half, step.at + step.half].map(|s| pose(s).position);
+            let width = 7.0 + 9.0 * step.strength;
+            let line = Line::new(ends.to_vec(), width, color.alpha(step.opacity));
+            scene.lines.push(line.through(0.9).lifted(self.lift));
+        }
+        let at = pose(placed.place.mode);
+        scene.labels.push(Label {
+            anchor: at.point(-aside),
+            offset: Vec2::new(2.0, 2.0),
+            text: band::interval(placed),
             color,
         });
     }

@@ -47,7 +47,10 @@ fn shown(scene: &Scene, camera: &Camera, studio: &Studio) -> Picture {
 fn bench(palette: Palette) -> (Scene, Camera) {
     let scenario = preset::find("bench").and_then(preset::Preset::scenario).expect("preset");
     let run = simulate(&scenario).expect("run");
-    (view(&run, &Trace::new(&run), 7.0, &ViewOptions { palette, pulse: 0.0, frozen: false }), home_camera(&run))
+    (
+        view(&run, &Trace::new(&run), 7.0, &ViewOptions { palette, pulse: 0.0, frozen: false, placed: None }),
+        home_camera(&run),
+    )
 }
 
 fn near(pixel: [u8; 4], color: Color, tolerance: i32) -> bool {

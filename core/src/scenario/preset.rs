@@ -40,6 +40,8 @@ pub const PRESETS: &[Preset] = presets![
     "touch-3",
     "cylinder",
     "snap",
+    "miscalibrated",
+    "play",
 ];
 
 impl Preset {

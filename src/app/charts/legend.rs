@@ -6,6 +6,8 @@ use egui::{Color32, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
 
 use crate::app::charts::notation::job;
 use crate::app::theme::Theme;
+use centrode_core::detect::Method;
+use centrode_core::run::Run;
 
 /// Form of a mark: it differs in shape as well as in colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,6 +30,8 @@ pub enum Form {
     Axis,
     /// The force of the beam.
     Arrow,
+    /// A band along the backbone.
+    Band,
 }
 
 /// Paints a mark; `size` 1 is that of a locus.
@@ -55,6 +59,11 @@ pub fn mark(painter: &Painter, at: Pos2, form: Form, size: f32, color: Color32, 
         }
         Form::Solid => {
             painter.hline(at.x - 7.0..=at.x + 7.0, at.y, Stroke::new(2.6, color));
+        }
+        Form::Band => {
+            for (half, opacity) in [(9.0, 0.3), (4.0, 0.75)] {
+                painter.hline(at.x - half..=at.x + half, at.y, Stroke::new(7.0, color.gamma_multiply(opacity)));
+            }
         }
         Form::Ghost => {
             let line = [at - vec2(8.0, 0.0), at + vec2(8.0, 0.0)];
@@ -89,6 +98,17 @@ pub struct Entry {
     pub color: Color32,
     /// What it means.
     pub text: &'static str,
+}
+
+/// What stands for the place that an alarm of the calibration filter's is given, where a run has such an alarm.
+#[must_use]
+pub fn placed(run: &Run, theme: &Theme) -> Option<Entry> {
+    let thresholds = &run.judged.settings.thresholds;
+    let judges = |method: &(Method, &str)| thresholds.judges(method.0);
+    let names = [(Method::Cusum, "place by CUSUM"), (Method::Glr, "place by GLR")];
+    let (method, text) = names.into_iter().find(judges)?;
+    run.judged.first(method)?;
+    Some(Entry { form: Form::Band, color: theme.constrained, text })
 }
 
 /// Height of a row of the legend.

@@ -4,18 +4,19 @@ mod flat;
 mod paint;
 mod track;
 
-use crate::app::charts::legend::{Entry, Form, ROW, arrow, legend, mark};
+use crate::app::charts::legend::{Entry, Form, ROW, arrow, legend, mark, placed as placed_entry};
 use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
-use crate::show::obstacle;
 use crate::show::track::{Trace, standing};
+use crate::show::{band, obstacle};
+use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::detect::{Method, Standing};
 use centrode_core::run::Run;
 use egui::{Align2, Color32, CursorIcon, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2};
 use flat::{Flat, Mark};
-use paint::{label, place, strip};
+use paint::{label, place, shaded, strip};
 use track::{Loci, Outline, Track};
 
 /// Least size of the whole view, points.
@@ -33,8 +34,14 @@ const USUAL: f32 = 6.5;
 const REACH: f32 = 10.0;
 
 /// Shows the plane at the playback position `cursor` (s) in the space that is left, with the `frozen` shape of the paper's model if
-/// that is wished.
-pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool), out: &mut Vec<Command>) {
+/// that is wished, and with where the calibration filter places the contact, as far as that is known.
+pub fn plane(
+    ui: &mut Ui,
+    run: &Run,
+    trace: &Trace,
+    (cursor, frozen, placed): (f64, bool, Option<&Estimate>),
+    out: &mut Vec<Command>,
+) {
     let theme = Theme::of(ui);
     let space = ui.available_size();
     let height = if space.y.is_finite() { space.y } else { 0.95 * space.x };
@@ -68,7 +75,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool
     }
     let axes = Axes::fit(track.bounds(&loci), data);
     let size = (axes.scale / USUAL).clamp(0.6, 1.0);
-    let view = View { run, track, theme, cursor, frozen, axes, data, loci, size };
+    let view = View { run, track, theme, cursor, frozen, placed, axes, data, loci, size };
 
     let response = ui.interact(data, ui.scope_id().with("bending plane"), Sense::CLICK);
     let deviation = run.sample_at(cursor).judgement.deviation * 1e3;
@@ -79,6 +86,7 @@ pub fn plane(ui: &mut Ui, run: &Run, trace: &Trace, (cursor, frozen): (f64, bool
     view.grid(&painter);
     let clipped = painter.with_clip_rect(data.intersect(painter.clip_rect()));
     view.robot(&clipped);
+    view.band(&clipped);
     view.marks(&clipped);
     let named = view.force(&clipped);
     view.now(&clipped, named);
@@ -118,8 +126,9 @@ fn entries(run: &Run, theme: &Theme, frozen: bool) -> Vec<Entry> {
         entries.push(entry(Form::Beam, theme.obstacle, "beam"));
     }
     if run.detection().is_some() {
-        entries.push(entry(Form::Diamond, theme.detection, "estimate"));
+        entries.push(entry(Form::Diamond, theme.detection, "estimate, Eq. 24"));
     }
+    entries.extend(placed_entry(run, theme));
     entries
 }
 
@@ -164,6 +173,7 @@ struct View<'a> {
     theme: Theme,
     cursor: f64,
     frozen: bool,
+    placed: Option<&'a Estimate>,
     axes: Axes,
     data: Rect,
     loci: Loci,
@@ -337,29 +347,52 @@ impl View<'_> {
         Some(self.value(painter, ends[0], ends, (&force.words, self.theme.force), None))
     }
 
-    /// After the detection: the estimated place of the contact on the backbone, against the true one.
+    /// Where the calibration filter places the contact, along the true backbone.
+    fn band(&self, painter: &Painter) {
+        let Some(placed) = self.placed else { return };
+        let steps = band::steps(placed);
+        let shape = self.track.truth(self.cursor);
+        let across = |s: f64| self.axes.at(self.track.place(&shape, s));
+        let color = self.theme.constrained;
+        for step in steps {
+            let ends = [step.at - step.half, step.at + step.half].map(across);
+            let side = (ends[1] - ends[0]).normalized().rot90() * ((3.0 + 6.0 * step.strength) * self.size);
+            let corners = [ends[0] - side, ends[0] + side, ends[1] + side, ends[1] - side];
+            shaded(painter, corners, color.gamma_multiply(step.opacity));
+        }
+    }
+
+    /// After an alarm: the places of the contact that the paper and the calibration filter give it on the backbone, against the true one.
     fn estimate(&self, painter: &Painter) {
         let theme = &self.theme;
-        let Some(detection) = self.run.detection().filter(|detection| detection.time <= self.cursor) else { return };
+        let detection = self.run.detection().filter(|detection| detection.time <= self.cursor);
+        if detection.is_none() && self.placed.is_none() {
+            return;
+        }
         let shape = self.track.truth(self.cursor);
-        let at = self.axes.at(self.track.place(&shape, detection.location));
         if let Some(contact) = self.run.plan.contact() {
             let truth = self.axes.at(self.track.place(&shape, contact.arc_length));
             painter.circle(truth, 4.5 * self.size, theme.obstacle, Stroke::new(1.5, theme.panel));
         }
-        mark(painter, at, Form::Diamond, 1.6 * self.size, theme.detection, theme);
-        // In the corner that is free: beside the backbone it would cover what it points at.
-        let mut text = format!("estimate {} mm", number(detection.location * 1e3, 1));
-        if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time().is_some()) {
-            text += &format!("\ntrue {} mm", number(contact.arc_length * 1e3, 1));
+        let mut lines = Vec::new();
+        if let Some(detection) = detection {
+            let at = self.axes.at(self.track.place(&shape, detection.location));
+            mark(painter, at, Form::Diamond, 1.6 * self.size, theme.detection, theme);
+            lines.push(format!("estimate {} mm", number(detection.location * 1e3, 1)));
         }
-        let galley = painter.layout_job(job(&text, TEXT - 1.0, theme.ink));
+        lines.extend(self.placed.map(|placed| format!("95 %: {}", band::interval(placed))));
+        if let Some(contact) = self.run.plan.contact().filter(|_| self.run.contact_time().is_some()) {
+            lines.push(format!("true {} mm", number(contact.arc_length * 1e3, 1)));
+        }
+        // In the corner that is free: beside the backbone it would cover what it points at.
+        let galley = painter.layout_job(job(&lines.join("\n"), TEXT - 1.0, theme.ink));
         if self.data.width() < 2.0 * galley.size().x || self.data.height() < 4.0 * galley.size().y {
             return;
         }
         let size = galley.size() + vec2(12.0, 6.0);
         let rect = Rect::from_min_size(self.data.right_bottom() - size - vec2(6.0, 6.0), size);
-        label(painter, rect, galley, theme.detection, theme);
+        let edge = if detection.is_some() { theme.detection } else { theme.constrained };
+        label(painter, rect, galley, edge, theme);
     }
 }
 

@@ -5,6 +5,7 @@ use egui::{Align2, Id, Pos2, Rect, Role, Sense, Stroke, Ui, WidgetInfo, vec2};
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
+use crate::app::words::placed::percent;
 use crate::app::words::story::Phase;
 
 /// How long the pulse takes, s.
@@ -18,8 +19,8 @@ pub struct Chip {
 }
 
 impl Chip {
-    /// Shows the chip with its top left corner at a place.
-    pub fn show(&mut self, ui: &mut Ui, at: Pos2, phase: Phase, still: bool) {
+    /// Shows the chip with its top left corner at a place; beside the state the probability that a contact has begun, where that is known.
+    pub fn show(&mut self, ui: &mut Ui, at: Pos2, (phase, contact): (Phase, Option<f64>), still: bool) {
         let theme = Theme::of(ui);
         let now = ui.input(|input| input.time);
         if self.phase != Some(phase) {
@@ -33,7 +34,12 @@ impl Chip {
             Phase::Detected | Phase::FalseAlarm => theme.detection,
         };
         let font = fonts::strong(13.5);
-        let rect = Rect::from_min_size(at, vec2(text::width(ui, phase.words(), font.clone()) + 42.0, 30.0));
+        let word = text::width(ui, phase.words(), font.clone());
+        let said = contact.map(|contact| format!("P(contact) {}", percent(contact)));
+        let small = fonts::regular(12.0);
+        // Room for the widest: a value that changes does not move the edge.
+        let beside = if said.is_some() { 12.0 + text::width(ui, "P(contact) > 99 %", small.clone()) } else { 0.0 };
+        let rect = Rect::from_min_size(at, vec2(word + 42.0 + beside, 30.0));
 
         let age = ((now - self.since) / PULSE) as f32;
         if phase == Phase::Detected && !still && age < 1.0 {
@@ -72,6 +78,9 @@ impl Chip {
             Phase::FalseAlarm => ui.painter().add(egui::Shape::closed_line(diamond(), Stroke::new(1.8, color))),
         };
         text::paint(ui, rect.left_center() + vec2(28.0, 0.0), Align2::LEFT_CENTER, phase.words(), font, ink);
+        if let Some(said) = said {
+            text::paint(ui, rect.left_center() + vec2(40.0 + word, 0.0), Align2::LEFT_CENTER, &said, small, ink);
+        }
         let response = ui.interact(rect, Id::unique("state chip"), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Status, true, format!("State: {}", phase.words())));
         ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));

@@ -3,15 +3,16 @@
 use egui::{Align2, ScrollArea, Sense, Ui, vec2};
 
 use crate::app::fonts;
+use crate::app::memo::placed::Placed;
 use crate::app::memo::recorded::Recorded;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
-use crate::app::words::log;
 use crate::app::words::story::{self, Figure};
+use crate::app::words::{log, placed as placing};
 use centrode_core::run::Run;
 
-/// Shows the readout of a run, simulated or of a log.
-pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>) {
+/// Shows the readout of a run, simulated or of a log, and what the calibration filter's alarm says at a time (s).
+pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, time): (&Placed, f64)) {
     let theme = Theme::of(ui);
     let (words, figures) = match recorded {
         Some(recorded) => (log::words(run, recorded), log::figures(run)),
@@ -21,7 +22,15 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>) {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());
-            ui.add_space(10.0);
+            for (said, color) in
+                [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.detection)]
+            {
+                if let Some(said) = said {
+                    ui.add_space(5.0);
+                    ui.add(egui::Label::new(text::rich(&said, 12.5, color)).wrap());
+                }
+            }
+            ui.add_space(8.0);
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);

@@ -18,13 +18,14 @@ use crate::scene::{Camera, Scene, Studio};
 use crate::show::obstacle::only_touches;
 use crate::show::track::Trace;
 use crate::show::{ViewOptions, home_camera, view};
+use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::run::Run;
 
 /// The ring around a fresh detection runs for this long, s of the run.
 const PULSE: f64 = 0.9;
 
 /// Room that the state chip takes at the top left: place and size, points.
-const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(130.0, 30.0));
+const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(212.0, 30.0));
 
 /// What the view remembers.
 #[derive(Default)]
@@ -48,6 +49,8 @@ struct Shown {
     time: f64,
     dark: bool,
     frozen: bool,
+    /// Mean and ends of the contact's place, m.
+    placed: Option<[f64; 3]>,
 }
 
 impl ViewState {
@@ -98,14 +101,14 @@ impl ViewState {
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, run: &Run, trace: &Trace, shown: Shown) {
+    fn update(&mut self, run: &Run, trace: &Trace, placed: Option<&Estimate>, shown: Shown) {
         if self.shown.as_ref() == Some(&shown) {
             return;
         }
         let Shown { time, dark, frozen, .. } = shown;
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        let options = ViewOptions { palette: Palette::for_dark(dark), pulse, frozen };
+        let options = ViewOptions { palette: Palette::for_dark(dark), pulse, frozen, placed };
         self.scene = Arc::new(view(run, trace, time, &options));
         self.version += 1;
         self.shown = Some(shown);
@@ -113,12 +116,13 @@ impl ViewState {
 }
 
 /// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-/// `version` is another for every other run; `frozen` shows the shape by the paper's model besides.
+/// `version` is another for every other run; `frozen` shows the shape by the paper's model besides, `placed` where the calibration
+/// filter places the contact.
 pub fn viewport(
     ui: &mut Ui,
     (run, version): (&Run, u64),
     trace: &Trace,
-    (cursor, frozen): (f64, bool),
+    (cursor, frozen, placed): (f64, bool, Option<&Estimate>),
     state: &mut ViewState,
     out: &mut Vec<Command>,
 ) {
@@ -134,7 +138,8 @@ pub fn viewport(
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
-    state.update(run, trace, Shown { version, time: cursor, dark: theme.dark, frozen });
+    let place = placed.map(|estimate| [estimate.place.mean, estimate.place.low, estimate.place.high]);
+    state.update(run, trace, placed, Shown { version, time: cursor, dark: theme.dark, frozen, placed: place });
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::for_dark(theme.dark).studio;

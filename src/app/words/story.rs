@@ -204,7 +204,7 @@ fn joint_forces(run: &Run) -> String {
 }
 
 /// Whether a load has begun to act on the tip by a time (s).
-fn loaded_by(run: &Run, time: f64) -> bool {
+pub(super) fn loaded_by(run: &Run, time: f64) -> bool {
     let load = &run.plan.scenario().load;
     time >= load.start && (load.force != [0.0; 3] || load.moment != [0.0; 3])
 }

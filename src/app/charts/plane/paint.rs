@@ -19,6 +19,15 @@ pub fn strip(painter: &Painter, sides: [&[Pos2]; 2], color: Color32) {
     painter.add(mesh);
 }
 
+/// Paints a convex four-cornered piece of a band without soft edges, which would show between it and the next.
+pub fn shaded(painter: &Painter, corners: [Pos2; 4], color: Color32) {
+    let mut mesh = Mesh::default();
+    mesh.vertices.extend(corners.map(|pos| Vertex { pos, uv: WHITE_UV, color }));
+    mesh.add_triangle(0, 1, 2);
+    mesh.add_triangle(0, 2, 3);
+    painter.add(mesh);
+}
+
 /// Puts a label of `size` beside `at`: where it covers fewest of the points in the way, within `bounds`.
 #[must_use]
 pub fn place(at: Pos2, size: Vec2, bounds: Rect, in_the_way: &[Pos2]) -> Rect {

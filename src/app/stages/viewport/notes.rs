@@ -43,8 +43,9 @@ fn entries((run, frozen): (&Run, bool), theme: &Theme, narrow: bool) -> Vec<Entr
         entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
     }
     if run.detection().is_some() {
-        entries.push(entry(Form::Diamond, theme.detection, "estimate"));
+        entries.push(entry(Form::Diamond, theme.detection, "estimate, Eq. 24"));
     }
+    entries.extend(legend::placed(run, theme));
     entries.push(entry(Form::Axis, theme.dim, "screw axis"));
     if run.contact_time().is_some() {
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));

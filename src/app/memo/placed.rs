@@ -1,0 +1,208 @@
+//! Where the calibration filter places the contact that its alarm tells of, at the alarm and as more is read.
+//!
+//! One estimate costs more than a frame may: [`Placed::work`] makes one at a time, first what is shown.
+
+use centrode_core::detect::Method;
+use centrode_core::detect::calibration::marginal::Estimate;
+use centrode_core::detect::calibration::noise::{SUSPECT, Whiteness};
+use centrode_core::detect::estimates::{Placing, marginal};
+use centrode_core::run::Run;
+use centrode_core::scenario::Estimator;
+
+/// Estimates are made so long after the alarm, s: densely at first, where the interval narrows fast.
+pub const AFTER: [f64; 13] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.75, 1.0, 1.5, 2.0];
+
+/// The detectors of the calibration filter; the first that judges is the one whose alarm is placed.
+const DETECTORS: [Method; 2] = [Method::Cusum, Method::Glr];
+
+/// An alarm whose contact is placed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alarm {
+    /// Whose it is.
+    pub detector: Method,
+    /// When it was raised, s.
+    pub raised: f64,
+}
+
+/// What estimates depend on: the readings as they were heard, the alarm, and with what contacts are placed.
+#[derive(Debug, Clone, PartialEq)]
+struct Key {
+    heard: u64,
+    alarm: Option<Alarm>,
+    placing: Placing,
+    end: f64,
+}
+
+/// One estimate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place<'a> {
+    /// It is being made.
+    Due,
+    /// The readings do not place the contact.
+    Unknown,
+    /// It is there.
+    At(&'a Estimate),
+}
+
+/// What is known of an alarm's contact at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shown<'a> {
+    /// The alarm.
+    pub alarm: Alarm,
+    /// What was known when it was raised.
+    pub first: Place<'a>,
+    /// What was last known, …
+    pub latest: Place<'a>,
+    /// … so long after the alarm, s.
+    pub after: f64,
+}
+
+impl<'a> Shown<'a> {
+    /// The last estimate, where there is one.
+    #[must_use]
+    pub fn estimate(&self) -> Option<&'a Estimate> {
+        match self.latest {
+            Place::At(estimate) => Some(estimate),
+            Place::Due | Place::Unknown => None,
+        }
+    }
+}
+
+/// The estimates of one run, as far as they have been made.
+#[derive(Debug, Default)]
+pub struct Placed {
+    key: Option<Key>,
+    /// The detector that judges.
+    detector: Option<Method>,
+    /// One for each time after the alarm that the run holds: the estimate, if there is any; none where it is not made yet.
+    made: Vec<Option<Option<Estimate>>>,
+    whiteness: Option<Whiteness>,
+}
+
+impl Placed {
+    /// Forgets what another run left; `heard` is another number for other readings.
+    pub fn renew(&mut self, run: &Run, heard: u64) {
+        let settings = &run.judged.settings;
+        self.detector = DETECTORS.into_iter().find(|&method| settings.thresholds.judges(method));
+        let event = self.detector.and_then(|detector| run.judged.first(detector));
+        let alarm = event.map(|event| Alarm { detector: event.detector, raised: event.raised });
+        let key = Key { heard, alarm, placing: settings.placing, end: run.sample(run.len() - 1).time };
+        if self.key.as_ref() == Some(&key) {
+            return;
+        }
+        let places = settings.placing.estimators.has(Estimator::Marginal) && run.judged.watched.is_some();
+        let held = |alarm: Alarm| AFTER.iter().take_while(|&after| alarm.raised + after <= key.end).count();
+        self.made = vec![None; alarm.filter(|_| places).map_or(0, held)];
+        self.whiteness = run.judged.whiteness();
+        self.key = Some(key);
+    }
+
+    /// Makes one estimate that is missing: the one that is due at a time (s), else the first. Returns whether more are missing.
+    pub fn work(&mut self, run: &Run, time: f64) -> bool {
+        let (Some(alarm), Some(watched)) = (self.alarm(), &run.judged.watched) else { return false };
+        let due = self.due(alarm, time);
+        let missing = |&which: &usize| matches!(self.made.get(which), Some(None));
+        let Some(next) = due.into_iter().chain(0..self.made.len()).find(missing) else { return false };
+        let estimate = marginal(watched, &run.judged.settings.placing, alarm.raised, alarm.raised + AFTER[next]);
+        self.made[next] = Some(estimate);
+        self.is_working()
+    }
+
+    /// Whether estimates are missing.
+    #[must_use]
+    pub fn is_working(&self) -> bool {
+        self.made.iter().any(Option::is_none)
+    }
+
+    /// The detector whose alarm is placed; none where neither judges.
+    #[must_use]
+    pub fn detector(&self) -> Option<Method> {
+        self.detector
+    }
+
+    /// The alarm; none while none is raised in the whole run.
+    #[must_use]
+    pub fn alarm(&self) -> Option<Alarm> {
+        self.key.as_ref()?.alarm
+    }
+
+    /// The last of the estimates that are not later than a time (s).
+    fn due(&self, alarm: Alarm, time: f64) -> Option<usize> {
+        // A playback position is rounded: that of the alarm counts as the alarm's.
+        let passed = |after: &&f64| alarm.raised + **after <= time + 1e-9;
+        AFTER.iter().take(self.made.len()).take_while(passed).count().checked_sub(1)
+    }
+
+    /// What is known at a time (s); none before the alarm, and where contacts are not placed.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Option<Shown<'_>> {
+        let alarm = self.alarm()?;
+        let due = self.due(alarm, time)?;
+        let place = |which: usize| match &self.made[which] {
+            None => Place::Due,
+            Some(None) => Place::Unknown,
+            Some(Some(estimate)) => Place::At(estimate),
+        };
+        Some(Shown { alarm, first: place(0), latest: place(due), after: AFTER[due] })
+    }
+
+    /// How seldom white innovations look like those of the run, where that is so seldom that they are not taken for white.
+    #[must_use]
+    pub fn suspect(&self) -> Option<f64> {
+        self.whiteness.map(|whiteness| whiteness.p_value).filter(|p| *p < SUSPECT)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::run::simulate;
+    use centrode_core::scenario::preset::find;
+    use centrode_core::scenario::{Plan, Threshold};
+
+    fn bench() -> Run {
+        simulate(&find("bench").and_then(|preset| preset.scenario()).expect("preset")).expect("run")
+    }
+
+    #[test]
+    fn what_is_shown_is_made_first_and_all_of_it_in_the_end() {
+        let run = bench();
+        let mut placed = Placed::default();
+        placed.renew(&run, 0);
+        let alarm = placed.alarm().expect("an alarm");
+        assert_eq!((alarm.detector, placed.at(alarm.raised - 0.01)), (Method::Cusum, None));
+        let late = alarm.raised + 0.6;
+        assert!(placed.at(late).is_some_and(|shown| shown.latest == Place::Due && shown.after == 0.5));
+        assert!(placed.work(&run, late), "one at a time");
+        let shown = placed.at(late).expect("after the alarm");
+        assert_eq!((shown.first, shown.alarm), (Place::Due, alarm));
+        let width = |estimate: &Estimate| estimate.place.high - estimate.place.low;
+        let narrow = width(shown.estimate().expect("made"));
+        let steps = 1 + std::iter::repeat_with(|| placed.work(&run, late)).take_while(|more| *more).count();
+        assert_eq!((steps, placed.is_working()), (AFTER.len() - 1, false));
+        let Some(Shown { first: Place::At(first), .. }) = placed.at(late) else { panic!("made") };
+        assert!(width(first) > 2.0 * narrow, "more readings say more");
+    }
+
+    #[test]
+    fn estimates_stand_while_what_they_are_made_of_does() {
+        let mut run = bench();
+        let mut placed = Placed::default();
+        placed.renew(&run, 0);
+        while placed.work(&run, 0.0) {}
+        let mut scenario = run.plan.scenario().clone();
+        let mut again = |scenario: &centrode_core::scenario::Scenario, placed: &mut Placed| {
+            run.update(Plan::new(scenario).expect("possible"));
+            placed.renew(&run, 0);
+        };
+        scenario.detection.xi2 = Threshold::On(0.006);
+        again(&scenario, &mut placed);
+        assert!(!placed.is_working(), "the alarm of another detector");
+        scenario.detection.cusum = Threshold::On(1000.0);
+        again(&scenario, &mut placed);
+        assert!(placed.is_working(), "a later alarm");
+        scenario.detection.cusum = Threshold::OFF;
+        again(&scenario, &mut placed);
+        assert_eq!((placed.detector(), placed.is_working()), (None, false), "neither judges");
+    }
+}

@@ -1,0 +1,180 @@
+//! What the calibration filter's alarm says of a contact, at the playback position.
+
+use crate::app::charts::notation::number;
+use crate::app::memo::placed::{Alarm, Place, Placed, Shown};
+use crate::app::words::story::loaded_by;
+use centrode_core::detect::Method;
+use centrode_core::detect::calibration::marginal::Estimate;
+use centrode_core::run::Run;
+use centrode_core::scenario::Kind;
+
+/// From this probability on, one kind of contact is named.
+const SURE: f64 = 0.95;
+
+/// What is known at a time (s); none where neither detector of the calibration filter judges.
+#[must_use]
+pub fn sentence(run: &Run, placed: &Placed, time: f64) -> Option<String> {
+    let name = match placed.detector()? {
+        Method::Glr => "GLR",
+        _ => "CUSUM",
+    };
+    let Some(alarm) = placed.alarm() else { return Some(format!("{name} raises no alarm.")) };
+    if time + 1e-9 < alarm.raised {
+        return Some(format!("{name} has raised no alarm yet."));
+    }
+    let told = alarmed(run, name, alarm);
+    Some(match placed.at(time) {
+        None => format!("{told}."),
+        Some(shown) => format!("{told}; {}", place(&shown)),
+    })
+}
+
+/// The alarm, against the truth where that is known.
+fn alarmed(run: &Run, name: &str, Alarm { raised, .. }: Alarm) -> String {
+    let (at, seconds) = (number(raised, 3), |duration: f64| format!("{} s", number(duration, 2)));
+    match run.contact_time() {
+        _ if run.is_recorded() => format!("{name} tells of a contact at {at} s"),
+        Some(contact) if contact <= raised => {
+            format!("{name} tells of a contact {} after touch", seconds(raised - contact))
+        }
+        Some(contact) => {
+            format!("{name} raises a false alarm at {at} s, {} before the contact", seconds(contact - raised))
+        }
+        None if loaded_by(run, raised) => {
+            let since = raised - run.plan.scenario().load.start;
+            format!("{name} raises an alarm at {at} s, {} after the load on the tip begins", seconds(since))
+        }
+        None => format!("{name} raises a false alarm at {at} s, for nothing touches the robot"),
+    }
+}
+
+/// Where the contact is placed, and what it is thought to be.
+fn place(shown: &Shown<'_>) -> String {
+    let latest = match shown.latest {
+        Place::Due => return "placing …".into(),
+        Place::Unknown => return "the readings do not place it.".into(),
+        Place::At(estimate) => estimate,
+    };
+    let mm = |value: f64| number(value * 1e3, 1);
+    let ends = |estimate: &Estimate| [mm(estimate.place.low), mm(estimate.place.high)];
+    let place = match shown.first {
+        Place::At(first) if shown.after > 0.0 => {
+            let ([low, high], [then_low, then_high]) = (ends(first), ends(latest));
+            let width = |estimate: &Estimate| estimate.place.high - estimate.place.low;
+            let becomes = if width(latest) < width(first) { "narrows" } else { "changes" };
+            let after = number(shown.after, 2);
+            format!("{low} to {high} mm with 95 %, which {becomes} to {then_low}–{then_high} mm {after} s later")
+        }
+        _ => {
+            let [low, high] = ends(latest);
+            format!("{low} to {high} mm with 95 %")
+        }
+    };
+    format!("{place}.{}", kind(latest).unwrap_or_default())
+}
+
+/// What the contact is thought to be, where more than one kind was thought possible.
+fn kind(estimate: &Estimate) -> Option<String> {
+    if estimate.kinds.len() < 2 {
+        return None;
+    }
+    let (kind, share) = estimate.kinds.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let name = |kind: Kind| match kind {
+        Kind::Clamp => "clamp",
+        Kind::Plane => "plane",
+    };
+    Some(if *share >= SURE {
+        format!(" A {}, {}.", name(*kind), percent(*share))
+    } else {
+        format!(" Clamp or plane: cannot tell yet ({} {}).", percent(*share), name(*kind))
+    })
+}
+
+/// A probability as a person says it: nothing but zero and one is certain.
+#[must_use]
+pub fn percent(share: f64) -> String {
+    match share {
+        share if share.is_nan() => "–".into(),
+        share if share < 0.005 => "< 1 %".into(),
+        share if share > 0.995 => "> 99 %".into(),
+        share => format!("{} %", number(share * 100.0, 0)),
+    }
+}
+
+/// A warning where innovations are not white.
+#[must_use]
+pub fn warning(placed: &Placed) -> Option<String> {
+    let p = placed.suspect()?;
+    let p = if p < 1e-99 { "p < 1e-99".into() } else { format!("p = {p:.0e}") };
+    Some(format!(
+        "Innovations are not white ({p}): thresholds and intervals hold for white ones. Assumed noise correlation and assumed drift \
+         (prior.colour, prior.drift) make room for what is left."
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::run::simulate;
+    use centrode_core::scenario::preset::find;
+    use centrode_core::scenario::{Contact, Scenario};
+
+    fn made(scenario: &Scenario) -> (Run, Placed) {
+        let run = simulate(scenario).expect("run");
+        let mut placed = Placed::default();
+        placed.renew(&run, 0);
+        (run, placed)
+    }
+
+    fn bench() -> Scenario {
+        find("bench").and_then(|preset| preset.scenario()).expect("preset")
+    }
+
+    #[test]
+    fn the_sentence_follows_the_cursor() {
+        let (run, mut placed) = made(&bench());
+        let raised = placed.alarm().expect("an alarm").raised;
+        let say = |placed: &Placed, time| sentence(&run, placed, time).expect("it judges");
+        assert_eq!(say(&placed, raised - 0.01), "CUSUM has raised no alarm yet.");
+        assert!(say(&placed, raised).ends_with(" s after touch; placing …"));
+        while placed.work(&run, raised) {}
+        let [at, later] = [0.0, 0.6].map(|after| say(&placed, raised + after));
+        assert!(at.starts_with("CUSUM tells of a contact 0.0") && !at.contains("narrows"), "{at}");
+        assert!(at.contains(" mm with 95 %. Clamp or plane: cannot tell yet ("), "{at}");
+        assert!(later.contains(" mm with 95 %, which narrows to ") && later.contains(" mm 0.50 s later. "), "{later}");
+    }
+
+    #[test]
+    fn without_touch_an_alarm_is_false() {
+        let mut scenario = bench();
+        scenario.detection.cusum = centrode_core::scenario::Threshold::On(1.5);
+        let (run, placed) = made(&scenario);
+        let said = sentence(&run, &placed, 9.0).expect("it judges");
+        assert!(said.contains("false alarm") && said.contains(" s before the contact; "), "{said}");
+        scenario.contact = Contact { place: centrode_core::scenario::Place::Nowhere, ..Contact::default() };
+        let (run, placed) = made(&scenario);
+        let said = sentence(&run, &placed, 9.0).expect("it judges");
+        assert!(said.contains(", for nothing touches the robot; "), "{said}");
+        scenario.detection.cusum = centrode_core::scenario::Threshold::OFF;
+        let (run, placed) = made(&scenario);
+        assert_eq!(sentence(&run, &placed, 9.0), None);
+    }
+
+    #[test]
+    fn noise_that_is_taken_for_white_and_is_not_is_warned_of() {
+        let mut scenario = bench();
+        assert_eq!(warning(&made(&scenario).1), None);
+        scenario.tracker.position_noise = 5e-4;
+        scenario.tracker.orientation_noise = 1e-3;
+        scenario.calibration.colour = 0.8;
+        scenario.prior.colour = centrode_core::scenario::Estimated::Known(0.0);
+        let said = warning(&made(&scenario).1).expect("far from white");
+        assert!(said.starts_with("Innovations are not white (p "), "{said}");
+    }
+
+    #[test]
+    fn nothing_is_certain() {
+        let said = [0.0, 0.0049, 0.25, 0.9951, 1.0, f64::NAN].map(percent);
+        assert_eq!(said, ["< 1 %", "< 1 %", "25 %", "> 99 %", "> 99 %", "–"]);
+    }
+}
