@@ -128,12 +128,13 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
         let Measure { unit, scale, .. } = measure(*detector);
         let cleared = cleared.map_or("never".into(), |time| format!("{time:.3}"));
         let (name, theta_l) = (detector.key(), degrees(*theta_l));
-        writeln!(
-            out,
+        let line = format!(
             "{name:<width$} {raised:>12.3} {cleared:>12} {theta_l:>9.3} {:>9.3} {unit:<4} {:>9.3} {unit}",
             value * scale,
             threshold * scale
-        )?;
+        );
+        // A detector without a unit leaves no space behind.
+        writeln!(out, "{}", line.trim_end())?;
     }
     if report.events.len() > LISTED {
         writeln!(out, "… and {} more events (--json lists them all)", report.events.len() - LISTED)?;

@@ -11,6 +11,7 @@ mod calibration;
 mod calibration_filter;
 #[cfg(feature = "cli")]
 mod cli;
+mod compare;
 mod contact_force;
 mod detectors;
 #[cfg(feature = "cli")]
