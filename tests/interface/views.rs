@@ -57,7 +57,7 @@ impl Page {
             let height = ui.available_height();
             ui.horizontal(|ui| {
                 ui.allocate_ui(vec2(width, height), |ui| {
-                    plane(ui, &self.run, &Trace::new(&self.run), (self.cursor, false), &mut out)
+                    plane(ui, &self.run, &Trace::new(&self.run), (self.cursor, false, None), &mut out)
                 });
                 ui.allocate_ui(vec2(ui.available_width(), height), |ui| {
                     plots(ui, (&self.run, self.version), self.cursor, &mut self.state, &mut out);
@@ -66,7 +66,7 @@ impl Page {
         } else {
             let width = ui.available_width();
             ui.allocate_ui(vec2(width, 380.0), |ui| {
-                plane(ui, &self.run, &Trace::new(&self.run), (self.cursor, false), &mut out)
+                plane(ui, &self.run, &Trace::new(&self.run), (self.cursor, false, None), &mut out)
             });
             plots(ui, (&self.run, self.version), self.cursor, &mut self.state, &mut out);
         }
@@ -288,7 +288,7 @@ fn the_plane_fits_in_a_low_place() {
         .wgpu()
         .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
-            |ui, page: &mut Page| plane(ui, &page.run, &Trace::new(&page.run), (page.cursor, false), &mut page.log),
+            |ui, page: &mut Page| plane(ui, &page.run, &Trace::new(&page.run), (page.cursor, false, None), &mut page.log),
             Page::new("bench", 7.1),
         );
     harness.run();
