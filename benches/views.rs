@@ -66,7 +66,7 @@ fn dragging(c: &mut Criterion) {
                 ui.allocate_ui(vec2(1200.0, 240.0), |ui| {
                     plots(ui, (run, memo.version()), CURSOR, &mut state, &mut out)
                 });
-                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, run, trace, (CURSOR, false), &mut out));
+                ui.allocate_ui(vec2(400.0, 400.0), |ui| plane(ui, run, trace, (CURSOR, false, None), &mut out));
             })
         });
     });

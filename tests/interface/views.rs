@@ -288,7 +288,9 @@ fn the_plane_fits_in_a_low_place() {
         .wgpu()
         .with_context_setup(centrode::app::theme::install)
         .build_ui_state(
-            |ui, page: &mut Page| plane(ui, &page.run, &Trace::new(&page.run), (page.cursor, false, None), &mut page.log),
+            |ui, page: &mut Page| {
+                plane(ui, &page.run, &Trace::new(&page.run), (page.cursor, false, None), &mut page.log)
+            },
             Page::new("bench", 7.1),
         );
     harness.run();

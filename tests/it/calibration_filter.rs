@@ -148,8 +148,9 @@ fn places_are_the_prototypes() {
                 (finer.place.mean - truth).abs() < 3.0 * (finer.place.high - finer.place.low) / 4.0,
                 "{name} at {k}"
             );
-            let sum: f64 = finer.posterior.iter().map(|[_, density]| density * LENGTH / 300.0).sum();
-            assert!((sum - 1.0).abs() < 0.02, "{name}: {sum}");
+            let grid = finer.posterior[1][0] - finer.posterior[0][0];
+            let sum: f64 = finer.posterior.iter().map(|[_, density]| density * grid).sum();
+            assert!((sum - 1.0).abs() < 1e-6, "{name}: {sum}");
             let both = ask(Kind::ALL, 4);
             let clamp = both.kinds.iter().find(|(kind, _)| *kind == Kind::Clamp).expect("tried").1;
             let late = k > reading(&part["alarm_s"]) + 40;
