@@ -115,7 +115,7 @@ impl Pressed {
         let (bend, share) = (configuration.bend(), place / segment.length);
         let travel = start - bend;
         let known = travel.is_finite() && travel != 0.0 && configuration.delta().is_finite();
-        if !known || !(share > 0.0 && share < 1.0) {
+        if !(known && share > 0.0 && share < 1.0) {
             return None;
         }
         let mut pressed = Self {
