@@ -9,6 +9,7 @@ use centrode_core::study::Job;
 use centrode_core::study::export::signed;
 use centrode_core::study::table2::chart::{made, with_words};
 use centrode_core::study::table2::export::{QUANTITIES, csv, latex};
+use centrode_core::study::table2::ours::Ours;
 use centrode_core::study::table2::{PAPER_REPEATS, Row, Spread, Table2, Table2Job, paper_rows};
 use clap::Args;
 use serde::Serialize;
@@ -111,6 +112,16 @@ fn text(out: &mut impl Write, table: &Table2) -> io::Result<()> {
             line(quantity.label, all.map(|disk| plus_minus((quantity.of)(disk), quantity.scale, quantity.digits)))?;
         }
         line("estimate − truth [mm]", all.map(|disk| number(disk.bias * 1e3, 2)))?;
+        if let Some(Ours { disk, placed, covered }) = table.ours.map(|ours| ours[k]) {
+            let mut ours = |label: &str, value: String| line(label, ["–".into(), value, "–".into()]);
+            ours("cusum: found", format!("{} of {}", disk.found, disk.repeats))?;
+            ours("false alarms", disk.false_alarms.map_or("–".into(), |count| count.to_string()))?;
+            ours("detected at [s]", plus_minus(disk.detection_time, 1.0, 3))?;
+            ours("after contact [s]", plus_minus(disk.delay, 1.0, 3))?;
+            ours("0.5 s later at [mm]", plus_minus(disk.location, 1e3, 2))?;
+            let held = if placed > 0 { format!("{:.0} %", covered * 100.0) } else { "–".into() };
+            ours("95 % hold the truth", held)?;
+        }
     }
     Ok(())
 }

@@ -84,10 +84,16 @@ impl Settings {
     /// The same for the experiment of a plan, before it is simulated: it is looked at until the robot moves.
     #[must_use]
     pub fn monitor_of(&self, plan: &Plan) -> Option<Monitor> {
+        self.monitor_before(plan, Recorder::new(plan).map(|(entry, _)| entry))
+    }
+
+    /// The same with the entries that it will have, of which those are looked at in which the robot stands still.
+    #[must_use]
+    pub fn monitor_before(&self, plan: &Plan, entries: impl IntoIterator<Item = Entry>) -> Option<Monitor> {
         self.watches().then(|| {
             let mut nominal = Nominal::new(&self.segment, &self.clock);
             let mut still = Readings::default();
-            for (entry, _) in Recorder::new(plan) {
+            for entry in entries {
                 if let Some(expected) = nominal.take(&entry) {
                     still.take(&expected, &entry, &self.clock.tip_from_marker);
                     if noise::still(&still.commands) < still.commands.len() {

@@ -5,18 +5,20 @@
 
 pub mod chart;
 pub mod export;
+pub mod ours;
 
 use super::seed::repeat_seed;
 use super::{Job, Progress};
 use crate::detect::alarm::Alarms;
 use crate::detect::evidence::Observer;
-use crate::detect::{Detection, Settings};
+use crate::detect::{Detection, Method, Settings};
 use crate::record::Script;
 use crate::run::kept;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::preset::find;
-use crate::scenario::{Contact, ContactKind, Plan, Refused, Scenario, ScenarioError};
+use crate::scenario::{Contact, ContactKind, Detectors, Plan, Refused, Scenario, ScenarioError};
 use libm::sqrt;
+use ours::{OurRow, Ours};
 use serde::Serialize;
 
 /// The presets whose contact stands for disk 1, 2 and 3.
@@ -134,6 +136,9 @@ pub struct Table2 {
     pub other: [Disk; 3],
     /// What the other kind is: a flat beam that only touches, or a clamp where the scenario's own is flat.
     pub other_kind: ContactKind,
+    /// From the experiments with the scenario's kind of contact, with `cusum` and the posterior of the place in place of the
+    /// paper's method; none where `cusum` does not judge.
+    pub ours: Option<[Ours; 3]>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -206,10 +211,12 @@ struct Experiments {
     kind: ContactKind,
     plans: [(Met, Plan, Script); 3],
     rows: Vec<Row>,
+    /// The same by the calibration filter; none where it does not watch.
+    ours: Option<Vec<OurRow>>,
 }
 
 impl Experiments {
-    fn new(base: &Scenario, kind: ContactKind) -> Result<Self, ScenarioError> {
+    fn new(base: &Scenario, kind: ContactKind, watch: bool) -> Result<Self, ScenarioError> {
         let mut plans = Vec::with_capacity(PRESETS.len());
         for (k, name) in PRESETS.into_iter().enumerate() {
             let Contact { place, start, .. } = find(name)?.scenario()?.contact;
@@ -224,22 +231,26 @@ impl Experiments {
             plans.push((truth, plan, script));
         }
         let plans = plans.try_into().expect("one for each preset");
-        Ok(Self { kind, plans, rows: Vec::new() })
+        Ok(Self { kind, plans, rows: Vec::new(), ours: watch.then(Vec::new) })
     }
 
     fn step(&mut self) {
         let (truth, plan, script) = &self.plans[self.rows.len() % PRESETS.len()];
         let seed = repeat_seed(plan.scenario().seed, (self.rows.len() / PRESETS.len()) as u64);
         let plan = plan.with_seed(seed);
-        let row = if plan.is_drawn() {
+        let watch = self.ours.is_some();
+        let (row, ours) = if plan.is_drawn() {
             // Each repeat is of another robot.
             let script = Script::new(&plan);
             let contact_time = script.contact_time().unwrap_or(f64::NAN);
-            experiment(&plan, &script, &Met { contact_time, ..*truth })
+            experiment(&plan, &script, &Met { contact_time, ..*truth }, watch)
         } else {
-            experiment(&plan, script, truth)
+            experiment(&plan, script, truth, watch)
         };
         self.rows.push(row);
+        if let (Some(all), Some(ours)) = (&mut self.ours, ours) {
+            all.push(ours);
+        }
     }
 
     /// The same disks without an experiment.
@@ -277,9 +288,9 @@ impl Table2Job {
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
         let kind = base.contact.kind;
-        let own = Experiments::new(base, kind)?;
+        let own = Experiments::new(base, kind, base.detection.detectors.has(Method::Cusum))?;
         // What a clamp holds a flat beam cannot always touch: then nothing is simulated with the other kind.
-        let other = Experiments::new(base, kind.other()).ok();
+        let other = Experiments::new(base, kind.other(), false).ok();
         Ok(Self { own, other, repeats })
     }
 
@@ -288,6 +299,12 @@ impl Table2Job {
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         &self.own.rows
+    }
+
+    /// The same by the calibration filter; none where `cusum` does not judge.
+    #[must_use]
+    pub fn our_rows(&self) -> Option<&[OurRow]> {
+        self.own.ours.as_deref()
     }
 
     /// The same with the other kind.
@@ -305,6 +322,11 @@ impl Table2Job {
             kind: self.own.kind,
             other: self.other.as_ref().map_or_else(|| self.own.none(), Experiments::disks),
             other_kind: self.own.kind.other(),
+            ours: self
+                .own
+                .ours
+                .as_ref()
+                .map(|rows| self.own.plans.each_ref().map(|(truth, ..)| Ours::new(*truth, rows))),
         }
     }
 }
@@ -325,27 +347,36 @@ impl Job for Table2Job {
     }
 }
 
-/// One run, up to its detection.
-fn experiment(plan: &Plan, script: &Script, truth: &Met) -> Row {
-    let settings = Settings::of(plan);
-    let (mut observer, mut alarms) = (Observer::new(&settings, None), Alarms::new(&settings));
-    let detection = script.entries(plan).find_map(|entry| {
+/// One run, up to its detection; `watch` where the calibration filter looks at it too, until that has placed the contact.
+fn experiment(plan: &Plan, script: &Script, truth: &Met, watch: bool) -> (Row, Option<OurRow>) {
+    let mut settings = Settings::of(plan);
+    let compared = if watch { &[Method::Fcd, Method::Cusum][..] } else { &[Method::Fcd] };
+    let judge: Vec<Method> = settings.thresholds.detectors.iter().filter(|method| compared.contains(method)).collect();
+    settings.thresholds.detectors = Detectors::of(&judge);
+    settings.watching.with_bank = false;
+    let monitor = settings.monitor_before(plan, script.entries(plan));
+    let (mut observer, mut alarms) = (Observer::new(&settings, monitor), Alarms::new(&settings));
+    let (mut detection, mut end) = (None, f64::NAN);
+    for entry in script.entries(plan) {
         let evidence = observer.observe(&entry);
         alarms.look(entry.time, &entry.configuration, &evidence.judgement);
-        Detection::first(alarms.events())
-    });
-    let disk = truth.disk;
-    match detection {
-        Some(detection) => {
-            let outcome = if detection.time >= truth.contact_time { Outcome::Found } else { Outcome::FalseAlarm };
-            let (detection_time, theta_l, location) = (detection.time, detection.theta_l, detection.location);
-            Row { disk, outcome, detection_time, theta_l, location }
-        }
-        None => {
-            let nan = f64::NAN;
-            Row { disk, outcome: Outcome::Missed, detection_time: nan, theta_l: nan, location: nan }
+        detection = detection.or_else(|| Detection::first(alarms.events()));
+        end = entry.time;
+        if detection.is_some() && (!watch || ours::is_over(&alarms, end)) {
+            break;
         }
     }
+    let ours = watch.then(|| ours::row(&settings, &observer, &alarms, end, truth));
+    let outcome = ours::outcome(detection.map(|detection| detection.time), truth.contact_time);
+    let found = |of: fn(&Detection) -> f64| detection.as_ref().map_or(f64::NAN, of);
+    let row = Row {
+        disk: truth.disk,
+        outcome,
+        detection_time: found(|detection| detection.time),
+        theta_l: found(|detection| detection.theta_l),
+        location: found(|detection| detection.location),
+    };
+    (row, ours)
 }
 
 #[cfg(test)]
