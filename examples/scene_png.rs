@@ -43,7 +43,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         let page = ui.ctx().content_rect();
                         ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
                         let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
-                        viewport(&mut view, (&run, 0), &Trace::new(&run), (time, false, None), &mut state, &mut Vec::new());
+                        viewport(
+                            &mut view,
+                            (&run, 0),
+                            &Trace::new(&run),
+                            (time, false, None),
+                            &mut state,
+                            &mut Vec::new(),
+                        );
                         layout::round(&view, page.shrink(8.0));
                     });
                 page.run_ok();

@@ -47,7 +47,7 @@ fn at_most(at: &At, most: f64) -> bool {
 fn contacts_are_found_within_hundredths_of_a_second_by_a_robot_that_is_not_calibrated() {
     for (noise, medians, ninety) in [(LO, [0.08, 0.05, 0.04], [0.10, 0.07, 0.06]), (HI, [0.37, 0.22, 0.17], [1.0; 3])] {
         for (disk, preset) in ["disk-1", "bench", "disk-3"].into_iter().enumerate() {
-            let comparison = compared(preset, &noise, 100, false);
+            let comparison = compared(preset, &noise, 200, false);
             let at = own(&comparison);
             assert!(at_most(at, 0.02) && at.found.high >= 0.98, "{preset}: {at:?}");
             let late = 1e-9;
@@ -55,7 +55,7 @@ fn contacts_are_found_within_hundredths_of_a_second_by_a_robot_that_is_not_calib
             // No test is faster that has as few false alarms.
             let bound = comparison.bound.as_ref().expect("a contact");
             assert!(bound.median <= at.median + 0.011, "{preset}: {bound:?} {at:?}");
-            assert_eq!((comparison.white.count, comparison.white.of), (100, 100), "{preset}");
+            assert!(comparison.white.count >= 196 && comparison.white.of == 200, "{preset}: {:?}", comparison.white);
         }
     }
 }
@@ -86,7 +86,7 @@ fn a_place_has_an_interval_that_is_true() {
 
 #[test]
 fn play_colour_and_drift_alarm_only_who_does_not_reckon_with_them() {
-    let compare = |sets: [&str; 2]| compared("bench", &[LO[0], LO[1], sets[0], sets[1]], 100, false);
+    let compare = |sets: [&str; 2]| compared("bench", &[LO[0], LO[1], sets[0], sets[1]], 200, false);
     for (truth, reckoned, most, ignored, least) in [
         ("calibration.play=0.0349", "prior.free_bend=0.0349", 0.03, "prior.free_bend=0", 0.9),
         ("calibration.colour=0.5", "prior.colour=auto", 0.02, "prior.colour=0", 0.25),
@@ -96,8 +96,8 @@ fn play_colour_and_drift_alarm_only_who_does_not_reckon_with_them() {
         assert!(at_most(own(&good), most), "{reckoned}: {:?}", own(&good));
         assert!(own(&bad).false_alarms.low > least, "{ignored}: {:?}", own(&bad));
         // Whoever tests innovations is told so.
-        assert_eq!(good.white.count, 100, "{reckoned}");
-        assert!(bad.white.count < 50, "{ignored}: {:?}", bad.white);
+        assert!(good.white.count >= 196, "{reckoned}: {:?}", good.white);
+        assert!(bad.white.count < 100, "{ignored}: {:?}", bad.white);
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::detect::calibration::noise::Whiteness;
 use crate::detect::estimates::Estimated;
 use crate::detect::force::Force;
-use crate::detect::{Crossing, Detection, Event, Judged, Method};
+use crate::detect::{Crossing, Detection, Event, Judged, Method, judge};
 use crate::plant::{Happening, PlantEvent};
 use crate::record::Recording;
 use crate::run::{Run, Sample};
@@ -127,9 +127,15 @@ pub struct Conclusions {
 }
 
 impl Conclusions {
-    /// Of a recording as it was judged: the contact that the first alarm of `detector` told of, at these times after it (s).
+    /// Of a recording as it was judged: the contact that the first alarm of `detector` told of, at these times after it (s). Where that
+    /// detector is switched off, it judges here alone.
     #[must_use]
     pub fn of(judged: &Judged, recording: &Recording, detector: Method, after: &[f64]) -> Self {
+        if !judged.settings.thresholds.detectors.has(detector) {
+            let mut settings = judged.settings.clone();
+            settings.thresholds.detectors.set(detector, true);
+            return Self::of(&judge(recording, &settings), recording, detector, after);
+        }
         let estimates = judged.estimates(recording, detector, after);
         let marginal = estimates.iter().filter(|estimate| estimate.estimator == Estimator::Marginal);
         let last = marginal.max_by(|a, b| a.time.total_cmp(&b.time));

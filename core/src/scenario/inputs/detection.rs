@@ -83,7 +83,7 @@ pub enum Arming {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Thresholds {
-    /// The detectors that judge (default: the paper's two, and the one of [`Method::Cusum`]).
+    /// The detectors that judge (default: the paper's two).
     pub detectors: Detectors,
     /// ξ1 of the joint force deviation Θ, N·m, or `"off"` (illustrative: above ε_c of the default robot).
     pub xi1: Threshold,
@@ -116,7 +116,7 @@ pub struct Thresholds {
 impl Default for Thresholds {
     fn default() -> Self {
         Self {
-            detectors: Detectors::of(&[Method::Fcd, Method::Jfd, Method::Cusum]),
+            detectors: Detectors::of(Method::PAPER),
             xi1: Threshold::On(0.03),
             xi1_rule: Xi1Rule::Constant,
             xi1_factor: 1.5,
