@@ -161,7 +161,9 @@ mod tests {
     use centrode_core::scenario::{Plan, Threshold};
 
     fn bench() -> Run {
-        simulate(&find("bench").and_then(|preset| preset.scenario()).expect("preset")).expect("run")
+        let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("preset");
+        scenario.detection.detectors.set(Method::Cusum, true);
+        simulate(&scenario).expect("run")
     }
 
     #[test]

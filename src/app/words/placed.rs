@@ -127,7 +127,9 @@ mod tests {
     }
 
     fn bench() -> Scenario {
-        find("bench").and_then(|preset| preset.scenario()).expect("preset")
+        let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("preset");
+        scenario.detection.detectors.set(centrode_core::detect::Method::Cusum, true);
+        scenario
     }
 
     #[test]
