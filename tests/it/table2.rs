@@ -126,13 +126,18 @@ fn the_simulation_finds_disks_2_and_3_when_the_paper_does() {
 
 #[test]
 fn beside_the_paper_s_method_stands_the_calibration_filter_s() {
-    let job = finished(&preset("bench"), 3);
+    let with_cusum = |name| {
+        let mut scenario = preset(name);
+        scenario.detection.detectors.set(Method::Cusum, true);
+        scenario
+    };
+    let job = finished(&with_cusum("bench"), 3);
     let (table, rows) = (job.table(), job.our_rows().expect("cusum judges"));
     let ours = table.ours.expect("cusum judges");
     assert_eq!(rows.len(), 9);
     // The first experiments are the presets.
     for (row, name) in rows.iter().zip(PRESETS) {
-        let run = simulate(&preset(name)).expect(name);
+        let run = simulate(&with_cusum(name)).expect(name);
         let alarm = run.judged.first(Method::Cusum).expect(name).raised;
         assert_eq!(row.row.detection_time, alarm, "{name}");
         let placed = run.judged.estimates(&run.recording, Method::Cusum, &[0.5]);
@@ -170,13 +175,15 @@ fn what_cannot_be_compared_is_refused() {
 
 #[cfg(feature = "cli")]
 mod command {
-    use super::{finished, preset};
+    use super::{Method, finished, preset};
     use crate::cli::{centrode, json, scratch};
 
     #[test]
     fn json_is_the_library_s_table() {
-        let ours = json(&["table2", "--repeats", "2", "--json"]);
-        let job = finished(&preset("bench"), 2);
+        let ours = json(&["table2", "--repeats", "2", "--json", "--set", "detection.detectors=fcd,jfd,cusum"]);
+        let mut scenario = preset("bench");
+        scenario.detection.detectors.set(Method::Cusum, true);
+        let job = finished(&scenario, 2);
         let table = job.table();
         for (k, disk) in table.simulated.iter().enumerate() {
             assert_eq!(ours["simulated"][k]["location"]["mean"].as_f64(), Some(disk.location.mean));
@@ -194,7 +201,8 @@ mod command {
     #[test]
     fn csv_holds_all_tables() {
         let path = scratch("table2.csv");
-        let output = centrode(&["table2", "--csv", path.to_str().expect("path")]);
+        let output =
+            centrode(&["table2", "--csv", path.to_str().expect("path"), "--set", "detection.detectors=fcd,jfd,cusum"]);
         assert!(output.status.success());
         let text = std::fs::read_to_string(&path).expect("a file");
         std::fs::remove_file(&path).expect("removed");

@@ -6,7 +6,7 @@ use libm::{cos, sincos};
 use std::f64::consts::PI;
 
 /// Places that are tried, the first of which is the base: a contact there changes nothing.
-pub const PLACES: usize = 20;
+pub const PLACES: usize = 32;
 /// From one place to the next, in units of L: the last is nearer to the end disk than half a spacing.
 pub const SPACING: f64 = 0.98 / (PLACES - 1) as f64;
 

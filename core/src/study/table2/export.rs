@@ -206,7 +206,9 @@ mod tests {
     use crate::study::table2::Table2Job;
 
     fn table(repeats: usize) -> Table2 {
-        let mut job = Table2Job::new(&Scenario::default(), repeats).expect("possible");
+        let mut scenario = Scenario::default();
+        scenario.detection.detectors.set(crate::detect::Method::Cusum, true);
+        let mut job = Table2Job::new(&scenario, repeats).expect("possible");
         job.finish();
         job.table()
     }
