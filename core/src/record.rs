@@ -6,6 +6,7 @@
 pub mod log;
 pub mod script;
 
+use crate::model::contact::branch::Surface;
 use crate::model::{Configuration, Vec3, Wrench};
 use crate::plant::event::Watch;
 use crate::plant::{Plant, PlantEvent, Shape};
@@ -105,6 +106,17 @@ impl Recording {
         let truth = self.truth.as_ref()?;
         let first = truth.iter().position(|truth| truth.held.is_some())?;
         Some(self.entries[first].time)
+    }
+
+    /// Truth: size (N) of the force of a plane on the backbone at a time (s), for a segment of this bending stiffness (N·m²); none where
+    /// it is not known, or nothing flat touches.
+    #[must_use]
+    pub fn contact_force(&self, time: f64, stiffness: f64) -> Option<f64> {
+        let at = self.entries.partition_point(|entry| entry.time < time - 1e-9);
+        match &self.truth.as_ref()?.get(at)?.shape {
+            Shape::Touched(touched) if touched.branch().surface() == Surface::Plane => touched.force(stiffness),
+            _ => None,
+        }
     }
 
     /// Truth: what becomes of the contacts of the recording's plan, in order; nothing where the truth is not known.

@@ -9,7 +9,7 @@ use centrode_core::plant::{Happening, PlantEvent};
 use centrode_core::scenario::Listed;
 use centrode_core::study::about::About;
 use centrode_core::study::course::{Measure, measure};
-use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, TooMany};
+use centrode_core::study::report::{self, Contact, Found, MAX_CROSSINGS, Pressed, TooMany};
 use std::io::Write;
 
 /// What a run or a log comes to.
@@ -91,7 +91,7 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
     for estimate in &report.estimates {
         placed(out, estimate)?;
     }
-    if let Some(Force { time, mean, low, high, truth }) = report.force {
+    if let Some(Pressed { force: Force { time, mean, low, high }, truth }) = report.force {
         write!(out, "presses     with {mean:.2} N at {time:.3} s, between {low:.2} and {high:.2} N")?;
         write!(out, " with load cells that err by {} %", report.scenario.load_cells.epsilon_tau * 100.0)?;
         match truth {

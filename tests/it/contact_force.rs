@@ -1,7 +1,7 @@
 //! The size of a contact force, by the load cells.
 
 use centrode_core::detect::Method;
-use centrode_core::detect::force::{Force, sizes};
+use centrode_core::detect::force::sizes;
 use centrode_core::plant::Shape;
 use centrode_core::run::{Run, simulate};
 use centrode_core::scenario::preset::find;
@@ -94,8 +94,8 @@ fn a_force_needs_a_place_a_motion_and_readings() {
 
 #[test]
 fn a_report_tells_of_the_force_of_a_plane_and_of_no_other() {
-    use centrode_core::study::report::{AFTER, Conclusions};
-    let told = |kind: ContactKind| -> (Option<Force>, Option<f64>) {
+    use centrode_core::study::report::{AFTER, Conclusions, Pressed};
+    let told = |kind: ContactKind| -> (Option<Pressed>, Option<f64>) {
         let mut scenario = scenario("disk-3", 0.05);
         scenario.contact.kind = kind;
         let run = simulate(&scenario).expect("possible");
@@ -103,9 +103,9 @@ fn a_report_tells_of_the_force_of_a_plane_and_of_no_other() {
         (conclusions.force, conclusions.estimates.last().map(|estimate| estimate.time))
     };
     let (force, last) = told(ContactKind::Plane);
-    let (force, last) = (force.expect("a plane"), last.expect("placed"));
+    let (Pressed { force, truth }, last) = (force.expect("a plane"), last.expect("placed"));
     assert!((force.time - last).abs() < 1.5e-3, "{force:?}, {last}");
-    let truth = force.truth.expect("simulated");
+    let truth = truth.expect("simulated");
     assert!(force.low <= force.mean && force.mean <= force.high, "{force:?}");
     // The place is estimated, so the truth is near the interval's end and not at it.
     assert!(force.low * 0.9 < truth && truth < force.high, "{force:?}");

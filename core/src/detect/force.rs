@@ -9,11 +9,9 @@
 
 use super::estimates::Estimated;
 use super::judge::{Judged, Settings};
-use crate::model::contact::branch::Surface;
 use crate::model::contact::ritz::Basis;
 use crate::model::contact::{Meeting, Unknowns, plane};
 use crate::model::{Configuration, Segment, Vec3};
-use crate::plant::Shape;
 use crate::record::Recording;
 use crate::scenario::{Estimator, Kind};
 use serde::Serialize;
@@ -36,8 +34,6 @@ pub struct Force {
     pub low: f64,
     /// … or too little.
     pub high: f64,
-    /// Truth; null where it is not known, or nothing flat touches.
-    pub truth: Option<f64>,
 }
 
 impl Force {
@@ -56,12 +52,7 @@ impl Force {
         let start = entries.iter().map(|entry| entry.configuration.bend()).find(known)?;
         let [low, mean, high] =
             sizes(&judged.settings, (start, entry.configuration), &entry.tau_lc, estimate.location.mean)?;
-        let stiffness = judged.settings.segment.bending_stiffness();
-        let truth = recording.truth.as_ref().and_then(|truth| match &truth.get(at)?.shape {
-            Shape::Touched(touched) if touched.branch().surface() == Surface::Plane => touched.force(stiffness),
-            _ => None,
-        });
-        Some(Self { time: entry.time, mean, low, high, truth })
+        Some(Self { time: entry.time, mean, low, high })
     }
 }
 

@@ -9,9 +9,10 @@ use super::estimates::{Estimated, Known, Placing, estimates};
 use super::evidence::{Evidence, Observer};
 use super::nominal::{Clock, Nominal};
 use super::statistic::Method;
-use crate::model::{Assumed, Assumption, Segment};
-use crate::plant::Plant;
+use crate::model::configuration::bend_from_theta_l;
+use crate::model::{Assumed, Assumption, Configuration, Segment};
 use crate::record::{Entry, Recorder, Recording};
+use crate::scenario::motion::command;
 use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Prior, Scenario, Thresholds};
 
 /// What a recording is judged with.
@@ -108,12 +109,15 @@ impl Settings {
 
     /// What a robot is told at each of the tracker's readings by a plan, until it rests: as [`Readings::of`] has it of the recording.
     pub fn commands(&self, plan: &Plan) -> impl Iterator<Item = Command> {
-        let (plant, mut nominal) = (Plant::new(plan), Nominal::new(&self.segment, &self.clock));
+        let mut nominal = Nominal::new(&self.segment, &self.clock);
+        let motion = plan.scenario().motion.clone();
+        let plane = Configuration::new(0.0, motion.delta);
         let Clock { rate, latency, .. } = self.clock;
         let rest = plan.scenario().motion.finish + latency + 1.0 / rate + 1.0 / self.loop_rate;
         let times = (0..plan.samples()).map(|k| plan.time(k)).take_while(move |time| *time <= rest);
         times.filter_map(move |time| {
-            let (configuration, theta_l_rate) = plant.command(time);
+            let (theta_l, theta_l_rate) = command(&motion, time);
+            let configuration = plane.with_bend(bend_from_theta_l(theta_l));
             nominal.commanded_at(time, configuration, theta_l_rate).map(|expected| expected.command())
         })
     }

@@ -50,7 +50,7 @@ pub struct Report<L = ()> {
     pub estimates: Vec<Estimated>,
     /// How hard it presses there, at the last of these times, if it only touches; null where that is not likely, or there are no load
     /// cells.
-    pub force: Option<Force>,
+    pub force: Option<Pressed>,
     /// Whether the calibration filter's innovations are white before that; null where it did not watch, or too briefly.
     pub whiteness: Option<Whiteness>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
@@ -115,13 +115,23 @@ impl<L> Report<L> {
     }
 }
 
+/// How hard a beam presses, and in truth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Pressed {
+    /// By the load cells.
+    #[serde(flatten)]
+    pub force: Force,
+    /// Truth, N; null where it is not known, or nothing flat touches.
+    pub truth: Option<f64>,
+}
+
 /// What is concluded from a run as a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Conclusions {
     /// [`Report::estimates`].
     pub estimates: Vec<Estimated>,
     /// [`Report::force`].
-    pub force: Option<Force>,
+    pub force: Option<Pressed>,
     /// [`Report::whiteness`].
     pub whiteness: Option<Whiteness>,
 }
@@ -139,7 +149,11 @@ impl Conclusions {
         let estimates = judged.estimates(recording, detector, after);
         let marginal = estimates.iter().filter(|estimate| estimate.estimator == Estimator::Marginal);
         let last = marginal.max_by(|a, b| a.time.total_cmp(&b.time));
-        let force = last.and_then(|last| Force::of(judged, recording, last));
+        let pressed = |force: Force| {
+            let truth = recording.contact_force(force.time, judged.settings.segment.bending_stiffness());
+            Pressed { force, truth }
+        };
+        let force = last.and_then(|last| Force::of(judged, recording, last)).map(pressed);
         Self { estimates, force, whiteness: judged.whiteness() }
     }
 }
