@@ -117,6 +117,41 @@ fn tuning(c: &mut Criterion) {
     group.finish();
 }
 
+/// What the calibration filter costs: gains once a plan, a run by each detector, one place.
+fn detect(c: &mut Criterion) {
+    use centrode_core::detect::Method;
+    use centrode_core::detect::calibration::course::{Listener, Planner};
+    use centrode_core::detect::estimates::{Placing, marginal};
+    use centrode_core::scenario::{Choice, Kind};
+    let mut scenario = find("miscalibrated").and_then(|preset| preset.scenario()).expect("miscalibrated");
+    scenario.detection.detectors.set(Method::Cusum, true);
+    let run = simulate(&scenario).expect("valid");
+    let watched = run.judged.watched.as_ref().expect("cusum judges");
+    let (model, commands, poses) = (&watched.model, &watched.readings.commands, &watched.readings.poses);
+    let mut group = c.benchmark_group("detect");
+    group.bench_function("gains", |b| b.iter(|| Planner::all(model, black_box(commands), false).len()));
+    for (name, with_bank) in [("filter and cusum", false), ("filter, cusum and glr", true)] {
+        let moments = Planner::all(model, commands, with_bank);
+        group.bench_function(format!("{name}, one run of {} readings", poses.len()), |b| {
+            b.iter(|| {
+                let mut listener = Listener::default();
+                let heard = moments.iter().zip(poses).map(|(moment, pose)| listener.hear(moment, black_box(pose)).cusum);
+                heard.fold(0.0, f64::max)
+            });
+        });
+    }
+    let alarm = run.judged.first(Method::Cusum).expect("found").raised;
+    for (name, plants) in [("a clamp", &[Kind::Clamp][..]), ("a clamp or a plane", &[Kind::Clamp, Kind::Plane])] {
+        let placing = Placing { plants: Choice::of(plants), ..run.judged.settings.placing };
+        for after in [0.0, 0.1, 0.5] {
+            group.bench_function(format!("place of {name}, {after} s after the alarm"), |b| {
+                b.iter(|| marginal(watched, &placing, alarm, black_box(alarm + after)).map(|found| found.place.mean));
+            });
+        }
+    }
+    group.finish();
+}
+
 /// A log of a million rows of thirteen columns: read, then put on the loop's clock.
 fn log(c: &mut Criterion) {
     use centrode_core::record::Recorder;
@@ -141,5 +176,5 @@ fn log(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, experiment, update, study, tuning, log);
+criterion_group!(benches, model, experiment, update, study, tuning, detect, log);
 criterion_main!(benches);
