@@ -135,7 +135,8 @@ fn detect(c: &mut Criterion) {
         group.bench_function(format!("{name}, one run of {} readings", poses.len()), |b| {
             b.iter(|| {
                 let mut listener = Listener::default();
-                let heard = moments.iter().zip(poses).map(|(moment, pose)| listener.hear(moment, black_box(pose)).cusum);
+                let heard =
+                    moments.iter().zip(poses).map(|(moment, pose)| listener.hear(moment, black_box(pose)).cusum);
                 heard.fold(0.0, f64::max)
             });
         });

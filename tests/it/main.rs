@@ -46,6 +46,7 @@ mod monitor;
 mod paper;
 mod properties;
 #[cfg(feature = "gui-tests")]
+mod released;
 mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]

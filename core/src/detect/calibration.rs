@@ -15,12 +15,12 @@ pub mod course;
 pub mod cusum;
 pub mod filter;
 pub mod glr;
+pub mod likelihood;
 pub mod linear;
 pub mod marginal;
 pub mod monitor;
 pub mod noise;
 pub mod signature;
-pub mod spline;
 pub mod watched;
 
 use nalgebra::{SMatrix, SVector};

@@ -1,7 +1,7 @@
 //! What no detector and no estimator can do better with the same readings.
 
 use super::course::Moment;
-use super::filter::Response;
+use super::filter::Responses;
 use crate::model::contact::{clamped_tip, free_tip};
 use crate::noise::{Normal, Source};
 use libm::sqrt;
@@ -13,7 +13,7 @@ fn added(moments: &[Moment], length: f64, place: f64, began: usize, share: f64) 
     let [from, to] = [began, began + 1].map(|k| moments.get(k).map_or(0.0, |moment| moment.command.bend));
     let met = from + share * (to - from);
     let side = (to - from).signum();
-    let mut response = Response::default();
+    let mut response = Responses::<1>::default();
     let step = |moment: &Moment| {
         let bend = moment.command.bend;
         let off = if side * (bend - met) > 0.0 {
@@ -21,7 +21,7 @@ fn added(moments: &[Moment], length: f64, place: f64, began: usize, share: f64) 
         } else {
             crate::model::contact::Planar::zeros()
         };
-        response.step(&moment.stage, [off.x, off.y])
+        response.step(&moment.stage, &[[off.x], [off.y]]).map(|[axis]| axis)
     };
     moments.iter().skip(began + 1).map(step).collect()
 }

@@ -1,6 +1,6 @@
 //! What depends on commands alone, reading by reading: shared by all repeats of a plan, or made as a stream goes on.
 
-use super::filter::{Designer, Filter, Response, Stage};
+use super::filter::{Designer, Filter, Responses, Stage};
 use super::glr::{Bank, Glr};
 use super::linear::Linear;
 use super::{Belief, Command, Noise, Six, cusum};
@@ -64,24 +64,23 @@ pub(super) struct Flight<const N: usize> {
     /// +1 while the bend grows.
     side: f64,
     /// What the filter makes of it at each place.
-    responses: [Response; N],
+    responses: Responses<N>,
 }
 
 impl<const N: usize> Flight<N> {
     /// One that begins at a command; none where the robot rests.
     pub(super) fn begin(command: &Command) -> Option<Self> {
         let side = if command.rate == 0.0 { 0.0 } else { command.rate.signum() };
-        (side != 0.0).then(|| Self { met: command.bend, side, responses: [Response::default(); N] })
+        (side != 0.0).then(|| Self { met: command.bend, side, responses: Responses::default() })
     }
 
     /// What it adds to the innovation of a reading in the bending plane, at each place (in units of L).
-    pub(super) fn step(&mut self, stage: &Stage, length: f64, bend: f64, places: &[f64; N]) -> [[f64; 3]; N] {
+    pub(super) fn step(&mut self, stage: &Stage, length: f64, bend: f64, places: &[f64; N]) -> [[f64; N]; 3] {
         let holds = self.side * (bend - self.met) > 0.0;
         let free = free_tip(bend);
-        std::array::from_fn(|i| {
-            let off = if holds { (clamped_tip(places[i], self.met, bend) - free) * length } else { Planar::zeros() };
-            self.responses[i].step(stage, [off.x, off.y])
-        })
+        let off = |place: f64| if holds { clamped_tip(place, self.met, bend) - free } else { Planar::zeros() };
+        let off = places.map(off);
+        self.responses.step(stage, &[off.map(|off| off.x * length), off.map(|off| off.y * length)])
     }
 }
 
@@ -119,9 +118,9 @@ impl Planner {
         let full = young.len() == *age;
         for (place, flight) in young.iter_mut().enumerate() {
             let Some(flight) = flight else { continue };
-            let [seen] = flight.step(&stage, model.length, command.bend, &[cusum::PLACE]);
+            let [[turn], [toward], [along]] = flight.step(&stage, model.length, command.bend, &[cusum::PLACE]);
             if place == 0 && full && command.rate != 0.0 {
-                design = Six::new(seen[0], seen[1], seen[2], 0.0, 0.0, 0.0);
+                design = Six::new(turn, toward, along, 0.0, 0.0, 0.0);
             }
         }
         if full {

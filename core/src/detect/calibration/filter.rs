@@ -133,43 +133,55 @@ impl Filter {
     }
 }
 
-/// A signature on its way through the filter: the same for what has no part out of the bending plane, at a third of the price.
+/// Signatures at `N` places on their way through the filter: the same for what has no part out of the bending plane, at a third of the
+/// price.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Response {
-    states: [f64; STATES],
-    last: [f64; 2],
+pub struct Responses<const N: usize> {
+    states: [[f64; N]; STATES],
+    last: [[f64; N]; 2],
 }
 
-impl Default for Response {
+impl<const N: usize> Default for Responses<N> {
     fn default() -> Self {
-        Self { states: [0.0; STATES], last: [0.0; 2] }
+        Self { states: [[0.0; N]; STATES], last: [[0.0; N]; 2] }
     }
 }
 
-impl Response {
-    /// What an offset of the end disk in the bending plane (m), toward the bend and along the straight backbone, adds to the innovation
+/// `to += by · from` at each place.
+#[inline]
+fn add<const N: usize>(to: &mut [f64; N], by: f64, from: &[f64; N]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to += by * from;
+    }
+}
+
+impl<const N: usize> Responses<N> {
+    /// What offsets of the end disk in the bending plane (m), toward the bend and along the straight backbone, add to the innovation
     /// of a reading: to its part in the plane.
     #[inline]
-    pub fn step(&mut self, stage: &Stage, off: [f64; 2]) -> [f64; 3] {
-        let fresh = [0, 1].map(|i| off[i] - self.last[i] * stage.colour);
-        self.last = off;
+    pub fn step(&mut self, stage: &Stage, off: &[[f64; N]; 2]) -> [[f64; N]; 3] {
+        let mut seen = [[0.0; N]; 3];
+        for (axis, (off, last)) in off.iter().zip(&mut self.last).enumerate() {
+            let mut fresh = *off;
+            add(&mut fresh, -stage.colour, last);
+            *last = *off;
+            for (row, seen) in seen.iter_mut().enumerate() {
+                add(seen, stage.whitener[(row, 1 + axis)], &fresh);
+            }
+        }
         let states = if stage.drifts { STATES } else { DRIFT };
         if stage.kept < 1.0 {
-            self.states[DRIFT..].iter_mut().for_each(|state| *state *= stage.kept);
-        }
-        let mut seen = [0.0; 3];
-        for (row, seen) in seen.iter_mut().enumerate() {
-            *seen = stage.whitener[(row, 1)] * fresh[0] + stage.whitener[(row, 2)] * fresh[1];
+            self.states[DRIFT..].as_flattened_mut().iter_mut().for_each(|state| *state *= stage.kept);
         }
         let (columns, gains) = (stage.seen.as_slice(), stage.gain.as_slice());
         for (state, column) in self.states[..states].iter().zip(columns.chunks_exact(6)) {
             for (seen, by) in seen.iter_mut().zip(column) {
-                *seen -= by * state;
+                add(seen, -by, state);
             }
         }
         for (seen, gain) in seen.iter().zip(gains.chunks_exact(STATES)) {
             for (state, gain) in self.states[..states].iter_mut().zip(gain) {
-                *state += gain * seen;
+                add(state, *gain, seen);
             }
         }
         seen

@@ -44,9 +44,9 @@ impl Flights {
         let places = places();
         let added = |(_, flight): &mut (usize, Flight<PLACES>)| {
             let seen = flight.step(stage, length, command.bend, &places);
-            let half = seen.map(|[a, b, c]| (0.5 * (a * a + b * b + c * c)) as f32);
-            let [a, b, c] = [0, 1, 2].map(|axis| seen.map(|w| w[axis] as f32));
-            [a, b, c, half]
+            let half = |i: usize| 0.5 * seen.iter().map(|axis| axis[i] * axis[i]).sum::<f64>();
+            let [a, b, c] = seen.map(|axis| axis.map(|w| w as f32));
+            [a, b, c, std::array::from_fn(|i| half(i) as f32)]
         };
         let bank = Bank { added: flights.iter_mut().map(added).collect(), gone };
         if let Some(flight) = Flight::begin(command) {

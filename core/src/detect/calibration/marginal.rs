@@ -5,10 +5,10 @@
 //! that leaves either out is too narrow.
 
 use super::course::{Model, Moment, residual};
-use super::filter::{Designer, Filter, Response, Stage};
+use super::filter::{Designer, Filter, Stage};
+use super::likelihood::{self, GRID, Grid, Row};
 use super::linear::{self, Linear};
-use super::signature::{PLACES, SPACING, Shapes};
-use super::spline::Spline;
+use super::signature::Shapes;
 use super::{Command, STATES, Six, States};
 use crate::model::Pose;
 use crate::scenario::Kind;
@@ -16,13 +16,16 @@ use libm::{exp, sqrt};
 
 /// Beginnings are tried up to so many readings before the alarm.
 const BEFORE: usize = 100;
+/// The likeliest beginning is first looked for at every so many of them.
+const STRIDE: usize = 4;
 /// Beginnings whose log likelihood is this much below the best are left out.
 const NEGLIGIBLE: f64 = 16.0;
 /// The calibration is estimated up to so many readings before the contact.
 const CLEAR: usize = 2;
-/// Steps of Gauss and Newton; the last is below [`SETTLED`] prior deviations.
+/// Steps of Gauss and Newton; each is about the square of the one before, so that what follows one below [`SETTLED`] prior deviations
+/// counts for nothing.
 const STEPS: usize = 4;
-const SETTLED: f64 = 1e-4;
+const SETTLED: f64 = 1e-2;
 
 /// What has been read so far.
 #[derive(Debug, Clone, Copy)]
@@ -65,9 +68,6 @@ pub struct Estimate {
     pub evidence: f64,
 }
 
-/// Spacing of the posterior's grid, as a share of L: 0.1 mm on the paper's segment.
-const GRID: f64 = 1.0 / 300.0;
-
 /// What is asked of the readings.
 #[derive(Debug, Clone, Copy)]
 pub struct Question<'a> {
@@ -82,55 +82,42 @@ pub struct Question<'a> {
 /// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved.
 #[must_use]
 pub fn estimate(history: &History, question: &Question) -> Option<Estimate> {
-    let began = beginning(history, question.alarm)?;
-    let calibrated = calibrate(history, began.saturating_sub(CLEAR), STEPS)?;
+    let (innovations, before) = nominal(history);
+    let began = beginning(history, &innovations, question.alarm)?;
+    let calibrated = calibrate(history, began.saturating_sub(CLEAR), &before)?;
     placed(history, began, &calibrated, question)
 }
 
-/// The reading at which a contact most likely began, for the nominal model and clamps.
-fn beginning(history: &History, alarm: usize) -> Option<usize> {
-    let History { model, moments, readings } = history;
-    let last = readings.len().min(moments.len()).checked_sub(1)?;
-    let first = alarm.saturating_sub(BEFORE);
+/// Innovations of all readings by the nominal model, and the errors estimated after each.
+fn nominal(history: &History) -> (Vec<Six>, Vec<States>) {
     let mut filter = Filter::default();
-    let innovations: Vec<Six> =
-        (0..=last).map(|k| filter.step(&moments[k].stage, &moments[k].residual(&readings[k]))).collect();
-    let bends: Vec<f64> = moments[..=last].iter().map(|moment| moment.command.bend).collect();
-    let stages = |k: usize| &moments[k].stage;
-    let shapes = Shapes::clamps(model.length);
-    let row = |began: usize| {
-        let side = moments[began].command.rate;
-        (side != 0.0).then(|| {
-            let row = likelihoods(&shapes, stages, &innovations, &bends, began, bends[began], side.signum());
-            (began, row.into_iter().fold(f64::NEG_INFINITY, f64::max))
-        })
+    let step = |(moment, reading): (&Moment, &Pose)| {
+        let innovation = filter.step(&moment.stage, &moment.residual(reading));
+        (innovation, filter.states)
     };
-    let rows = (first..last).filter_map(row);
-    rows.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(began, _)| began)
+    history.moments.iter().zip(history.readings).map(step).unzip()
 }
 
-/// Log likelihood ratios of contacts that began after the reading `began`, at the bend `met`, at each of the places.
-fn likelihoods<'s>(
-    shapes: &Shapes,
-    stage: impl Fn(usize) -> &'s Stage,
-    innovations: &[Six],
-    bends: &[f64],
-    began: usize,
-    met: f64,
-    side: f64,
-) -> [f64; PLACES] {
-    let (mut responses, mut sums) = ([Response::default(); PLACES], [0.0; PLACES]);
-    let met = shapes.met(met);
-    for k in began + 1..innovations.len() {
-        let holds = side * (bends[k] - met.bend()) > 0.0;
-        let offs = if holds { met.off(bends[k]) } else { [[0.0; 2]; PLACES] };
-        let (stage, innovation) = (stage(k), &innovations[k]);
-        for ((response, sum), off) in responses.iter_mut().zip(&mut sums).zip(offs) {
-            let seen = response.step(stage, off);
-            *sum += (0..3).map(|i| seen[i] * (innovation[i] - 0.5 * seen[i])).sum::<f64>();
-        }
-    }
-    sums
+/// The reading at which a contact most likely began, for the nominal model and clamps: every so many readings, then near the best.
+fn beginning(history: &History, heard: &[Six], alarm: usize) -> Option<usize> {
+    let History { model, moments, .. } = history;
+    let last = heard.len().checked_sub(1)?;
+    let bends: Vec<f64> = moments[..=last].iter().map(|moment| moment.command.bend).collect();
+    let shapes = Shapes::clamps(model.length);
+    let grid = Grid::coarse();
+    let stages = |k: usize| &moments[k].stage;
+    let most = |began: usize| {
+        let side = moments[began].command.rate.signum();
+        Row::new(&shapes, stages, heard, &bends, (began, 0.0), side).most(&grid)
+    };
+    let moving: Vec<usize> =
+        (alarm.saturating_sub(BEFORE)..last).filter(|&began| moments[began].command.rate != 0.0).collect();
+    let best = |tried: &mut dyn Iterator<Item = usize>| {
+        tried.map(|at| (at, most(moving[at]))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
+    };
+    let near = best(&mut (0..moving.len()).step_by(STRIDE))?;
+    let around = near.saturating_sub(STRIDE - 1)..(near + STRIDE).min(moving.len());
+    best(&mut around.into_iter()).map(|at| moving[at])
 }
 
 /// Where the model is made linear.
@@ -144,18 +131,18 @@ struct Calibrated {
 /// keep what is of second order in the errors, and are not white even where everything is as it is thought to be.
 #[must_use]
 pub fn innovations(history: &History) -> Vec<Six> {
-    let History { model, moments, readings } = history;
-    let Some(calibrated) = calibrate(history, readings.len(), 1) else { return Vec::new() };
-    let errors = linear::errors(&calibrated.states, &model.belief.deviations);
-    about_errors(history, errors, moments.len()).innovations
+    let History { model, moments, .. } = history;
+    let (_, states) = nominal(history);
+    let Some(states) = states.last() else { return Vec::new() };
+    about_errors(history, linear::errors(states, &model.belief.deviations), moments.len()).innovations
 }
 
-/// Gauss and Newton on the readings up to `until`, in so many steps at most.
-fn calibrate(history: &History, until: usize, steps: usize) -> Option<Calibrated> {
+/// Gauss and Newton on the readings up to `until`, from what the nominal model makes of them.
+fn calibrate(history: &History, until: usize, nominal: &[States]) -> Option<Calibrated> {
     let History { model, moments, readings } = history;
-    let mut states = States::zeros();
+    let mut states = *nominal.get(until)?;
     let mut deviations = States::zeros();
-    for _ in 0..steps {
+    for _ in 0..STEPS {
         let errors = linear::errors(&states, &model.belief.deviations);
         let mut designer = Designer::new(&model.belief, model.noise);
         let mut filter = Filter::default();
@@ -186,6 +173,13 @@ struct About {
     bends: Vec<f64>,
 }
 
+impl About {
+    /// Contacts that began at a reading and some of the way to the next, at any place.
+    fn row(&self, shapes: &Shapes, began: (usize, f64), side: f64) -> Row {
+        Row::new(shapes, |k| &self.stages[k], &self.innovations, &self.bends, began, side)
+    }
+}
+
 /// The first `count` readings by the model that is linear about these errors.
 fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> About {
     let History { model, moments, readings } = history;
@@ -205,11 +199,11 @@ fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> 
     all
 }
 
-/// Beginnings that were tried, and the log likelihood ratios there.
-struct Row {
-    /// In readings.
-    began: f64,
-    spline: Spline<PLACES>,
+/// Contacts of one kind: beginnings that were tried, `parts` of them to a reading.
+struct Tried {
+    kind: Kind,
+    rows: Vec<Row>,
+    parts: u32,
 }
 
 fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Question) -> Option<Estimate> {
@@ -217,110 +211,112 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let History { model, moments, readings } = history;
     let last = readings.len().min(moments.len()).checked_sub(1)?;
     let errors = linear::errors(&calibrated.states, &model.belief.deviations);
-    let About { stages, innovations, bends } = about_errors(history, errors, last + 1);
+    let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
     let first = alarm.saturating_sub(BEFORE);
-    let moving = |k: usize| moments[k].command.rate != 0.0;
-    let nearest: Vec<usize> = (first..last).filter(|&k| moving(k)).collect();
+    let moving: Vec<usize> = (first..last).filter(|&k| moments[k].command.rate != 0.0).collect();
     let side = moments[began].command.rate.signum();
-    let mut all = Vec::new();
-    for &kind in kinds {
+    let all = kinds.iter().map(|&kind| {
         let shapes = match kind {
             Kind::Clamp => Shapes::clamps(length),
-            Kind::Plane => {
-                let range = &bends[first..=last];
-                Shapes::planes(length, range, side)
-            }
+            Kind::Plane => Shapes::planes(length, &about.bends[first..=last], side),
         };
-        let row = |began: f64| {
-            let (whole, part) = (began as usize, began.fract());
-            let met = bends[whole] + part * (bends[whole + 1] - bends[whole]);
-            let sums = likelihoods(&shapes, |k| &stages[k], &innovations, &bends, whole, met, side);
-            Row { began, spline: Spline::new(SPACING, sums) }
-        };
-        let mut rows: Vec<Row> = Vec::new();
-        let mut best = f64::NEG_INFINITY;
-        // Outward from the likeliest beginning, to where nothing is left.
-        let start = nearest.partition_point(|&k| k < began);
-        for ahead in [true, false] {
-            let mut left = if ahead { &nearest[start..] } else { &nearest[..start] };
-            while let Some((&next, rest)) = if ahead { left.split_first() } else { left.split_last() } {
-                left = rest;
-                let row = row(next as f64);
-                let most = row.spline.most();
-                best = best.max(most);
-                rows.push(row);
-                if most < best - NEGLIGIBLE {
-                    break;
-                }
+        let row = |began: (usize, f64)| about.row(&shapes, began, side);
+        let (rows, parts) = rows(row, &moving, began, parts);
+        Tried { kind, rows, parts }
+    });
+    let all: Vec<Tried> = all.collect();
+    let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
+    let commands: Vec<Command> = moments.iter().map(|moment| moment.command).collect();
+    weigh(&all, length, &commands, [errors, deviations])
+}
+
+/// The beginnings that count, and how many of them there are to a reading, at most `parts`.
+fn rows(row: impl Fn((usize, f64)) -> Row, moving: &[usize], began: usize, parts: u32) -> (Vec<Row>, u32) {
+    let grid = Grid::coarse();
+    let mut best = f64::NEG_INFINITY;
+    let mut rows: Vec<(f64, Row)> = Vec::new();
+    // Outward from the likeliest beginning, to where nothing is left.
+    let start = moving.partition_point(|&k| k < began);
+    let sides: [&mut dyn Iterator<Item = &usize>; 2] = [&mut moving[start..].iter(), &mut moving[..start].iter().rev()];
+    for side in sides {
+        for &next in side {
+            let row = row((next, 0.0));
+            let most = row.most(&grid);
+            best = best.max(most);
+            rows.push((most, row));
+            if most < best - NEGLIGIBLE {
+                break;
             }
         }
-        rows.retain(|row| row.spline.most() > best - NEGLIGIBLE);
-        let parts = parts.max(1);
-        let between: Vec<f64> =
-            rows.iter().flat_map(|row| (1..parts).map(|part| row.began + f64::from(part) / f64::from(parts))).collect();
-        rows.extend(between.into_iter().map(row));
-        rows.sort_by(|a, b| a.began.total_cmp(&b.began));
-        all.push((kind, rows));
     }
-    let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
-    let moments: Vec<Command> = moments.iter().map(|moment| moment.command).collect();
-    weigh(&all, length, &moments, [errors, deviations])
+    rows.sort_by(|a, b| a.1.began.total_cmp(&b.1.began));
+    let all: Vec<&Row> = rows.iter().map(|(_, row)| row).collect();
+    let parts = likelihood::parts(&all, &grid, best).map_or(parts, |enough| enough.min(parts)).max(1);
+    rows.retain(|(most, _)| *most > best - NEGLIGIBLE);
+    let part = |part: u32| f64::from(part) / f64::from(parts);
+    let divided = rows.into_iter().flat_map(|(_, whole)| {
+        let between = (1..parts).map(part).map(|part| row((whole.began as usize, part))).collect::<Vec<_>>();
+        std::iter::once(whole).chain(between)
+    });
+    (divided.collect(), parts)
 }
 
 /// Adds the grid up.
-fn weigh(
-    all: &[(Kind, Vec<Row>)],
-    length: f64,
-    commands: &[Command],
-    calibration: [[f64; STATES]; 2],
-) -> Option<Estimate> {
-    let places: Vec<f64> = (1..).map(|i| f64::from(i) * GRID).take_while(|place| *place < 1.0 - 0.5 * GRID).collect();
-    let rows = || all.iter().flat_map(|(_, rows)| rows);
-    let best = rows().map(|row| row.spline.most()).fold(f64::NEG_INFINITY, f64::max);
+fn weigh(all: &[Tried], length: f64, commands: &[Command], calibration: [[f64; STATES]; 2]) -> Option<Estimate> {
+    let grid = Grid::fine();
+    let places = grid.places();
+    let values: Vec<Vec<Vec<f64>>> =
+        all.iter().map(|tried| tried.rows.iter().map(|row| row.along(&grid).collect()).collect()).collect();
+    let best = values.iter().flatten().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
     if !best.is_finite() {
         return None;
     }
     let mut density = vec![0.0; places.len()];
     let (mut began, mut kinds) = (0.0, Vec::new());
-    for (kind, rows) in all {
+    for (tried, values) in all.iter().zip(&values) {
         let mut weight = 0.0;
-        for row in rows {
+        for (row, values) in tried.rows.iter().zip(values) {
             let (whole, part) = (row.began as usize, row.began.fract());
             let after = commands.get(whole + 1).map_or(commands[whole].time, |after| after.time);
             let at = commands[whole].time + part * (after - commands[whole].time);
-            for (place, density) in places.iter().zip(&mut density) {
-                let here = exp(row.spline.at(*place) - best);
+            for (value, density) in values.iter().zip(&mut density) {
+                let here = exp(value - best) / f64::from(tried.parts);
                 *density += here;
                 weight += here;
                 began += here * at;
             }
         }
-        kinds.push((*kind, weight));
+        kinds.push((tried.kind, weight));
     }
     let total: f64 = density.iter().sum();
-    if total == 0.0 {
-        return None;
-    }
     kinds.iter_mut().for_each(|(_, weight)| *weight /= total);
-    let mean = places.iter().zip(&density).map(|(place, here)| place * here).sum::<f64>() / total;
-    let mode = density.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
-    let quantile = |share: f64| {
-        let mut sum = 0.0;
-        for (place, here) in places.iter().zip(&density) {
-            if sum + here >= share * total {
-                return place + ((share * total - sum) / here - 0.5) * GRID;
-            }
-            sum += here;
-        }
-        1.0
-    };
-    let place = Place {
-        mean: mean * length,
-        mode: places[mode] * length,
-        low: quantile(0.025) * length,
-        high: quantile(0.975) * length,
-    };
+    let place = Place::of(places, &density, length);
     let posterior = places.iter().zip(&density).map(|(place, here)| [place * length, here / (total * GRID * length)]);
     Some(Estimate { place, began: began / total, kinds, calibration, posterior: posterior.collect(), evidence: best })
+}
+
+impl Place {
+    /// Of a density (in any unit) along the grid's places (in units of L) of a segment `length` m long.
+    fn of(places: &[f64], density: &[f64], length: f64) -> Self {
+        let total: f64 = density.iter().sum();
+        let mean = places.iter().zip(density).map(|(place, here)| place * here).sum::<f64>() / total;
+        let mode = density.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
+        let quantile = |share: f64| {
+            let mut sum = 0.0;
+            for (place, here) in places.iter().zip(density) {
+                if sum + here >= share * total {
+                    return place + ((share * total - sum) / here - 0.5) * GRID;
+                }
+                sum += here;
+            }
+            1.0
+        };
+        Self {
+            mean: mean * length,
+            mode: places[mode] * length,
+            low: quantile(0.025) * length,
+            high: quantile(0.975) * length,
+        }
+    }
 }

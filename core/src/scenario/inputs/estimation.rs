@@ -13,7 +13,7 @@ pub struct Estimation {
     pub estimators: Choice<Estimator>,
     /// Kinds of contact that [`Estimator::Marginal`] thinks possible (default: all).
     pub plants: Choice<Kind>,
-    /// Beginnings that it tries between one reading and the next.
+    /// Beginnings that it tries from one reading to the next, at most.
     pub beginnings: u64,
 }
 

@@ -124,7 +124,7 @@ const JUDGING: &[Key] = &[
         Count,
         Allowed::Whole(1, 16),
         whole!(estimation.beginnings),
-        "How many instants between one reading and the next the estimator marginal tries as the beginning of a contact.",
+        "How many instants from one reading to the next the estimator marginal tries at most as the beginning of a contact.",
     )
     .usual_range(1.0, 16.0)
     .illustrative(),

@@ -1,0 +1,130 @@
+//! The log likelihood ratio of contacts that began at one instant, at every place at once.
+//!
+//! A signature is a polynomial in the place, so that its ratio is a quadratic form of the polynomial's weights: it is gathered once, and
+//! then known at every place to the last digit.
+
+use super::Six;
+use super::filter::{Responses, Stage};
+use super::signature::{PLACES, Shapes, weights};
+
+/// Spacing of the posterior's grid, as a share of L: 0.1 mm on the paper's segment.
+pub const GRID: f64 = 1.0 / 300.0;
+
+/// Places along the backbone, and the weights of each.
+#[derive(Debug, Clone)]
+pub struct Grid {
+    places: Vec<f64>,
+    weights: Vec<[f64; PLACES]>,
+}
+
+impl Grid {
+    /// Those of a posterior.
+    #[must_use]
+    pub fn fine() -> Self {
+        Self::every(1)
+    }
+
+    /// Fewer of them: enough to see how large a ratio is anywhere.
+    #[must_use]
+    pub fn coarse() -> Self {
+        Self::every(10)
+    }
+
+    fn every(step: u32) -> Self {
+        let places = (step..).step_by(step as usize).map(|i| f64::from(i) * GRID);
+        let places: Vec<f64> = places.take_while(|place| *place < 1.0 - 0.5 * GRID).collect();
+        let weights = places.iter().copied().map(weights).collect();
+        Self { places, weights }
+    }
+
+    /// The places, in units of L.
+    #[must_use]
+    pub fn places(&self) -> &[f64] {
+        &self.places
+    }
+}
+
+/// Contacts that began at one instant.
+#[derive(Debug, Clone)]
+pub struct Row {
+    /// When, in readings.
+    pub began: f64,
+    /// Signatures times innovations.
+    linear: [f64; PLACES],
+    /// Signatures times each other.
+    square: [[f64; PLACES]; PLACES],
+}
+
+impl Row {
+    /// Contacts that began at a reading and some of the way to the next, while the bend changed to the side `side`. `bends` (rad) are
+    /// those of the readings, of which `stage` gives the filter.
+    pub fn new<'s>(
+        shapes: &Shapes,
+        stage: impl Fn(usize) -> &'s Stage,
+        innovations: &[Six],
+        bends: &[f64],
+        (whole, part): (usize, f64),
+        side: f64,
+    ) -> Self {
+        let mut row = Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] };
+        let next = bends.get(whole + 1).copied().unwrap_or(bends[whole]);
+        let met = shapes.met(bends[whole] + part * (next - bends[whole]));
+        let mut responses = Responses::default();
+        for k in whole + 1..innovations.len() {
+            let holds = side * (bends[k] - met.bend()) > 0.0;
+            let off = if holds { met.off(bends[k]) } else { [[0.0; PLACES]; 2] };
+            row.add(&responses.step(stage(k), &off), &innovations[k]);
+        }
+        row
+    }
+
+    #[inline]
+    fn add(&mut self, seen: &[[f64; PLACES]; 3], innovation: &Six) {
+        for (axis, seen) in seen.iter().enumerate() {
+            for (i, one) in seen.iter().enumerate() {
+                self.linear[i] += one * innovation[axis];
+                for (square, other) in self.square[i].iter_mut().zip(seen) {
+                    *square += one * other;
+                }
+            }
+        }
+    }
+
+    fn at(&self, weights: &[f64; PLACES]) -> f64 {
+        let dot = |a: &[f64; PLACES]| a.iter().zip(weights).map(|(a, weight)| a * weight).sum::<f64>();
+        dot(&self.linear) - 0.5 * self.square.iter().zip(weights).map(|(row, weight)| weight * dot(row)).sum::<f64>()
+    }
+
+    /// The ratio (natural logarithm) at each place of a grid.
+    pub fn along<'a>(&'a self, grid: &'a Grid) -> impl Iterator<Item = f64> + 'a {
+        grid.weights.iter().map(|weights| self.at(weights))
+    }
+
+    /// The largest of them.
+    #[must_use]
+    pub fn most(&self, grid: &Grid) -> f64 {
+        self.along(grid).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+/// Places that count for less than this, as a logarithm, need no fine sum.
+const SLIGHT: f64 = 8.0;
+/// A sum over beginnings is exact to 10⁻⁴ where the logarithm bends by no more than this from one to the next.
+const SMOOTH: f64 = 2.0;
+
+/// Into how many parts the time from one reading to the next must be divided for a sum over beginnings to be as good as an integral.
+/// `None` where these rows, of one reading after the other, do not tell. `best` is the largest of their ratios.
+#[must_use]
+pub fn parts(rows: &[&Row], grid: &Grid, best: f64) -> Option<u32> {
+    let values: Vec<Vec<f64>> = rows.iter().map(|row| row.along(grid).collect()).collect();
+    let mut most = None;
+    for three in values.windows(3) {
+        for place in 0..grid.places.len() {
+            let [before, here, after] = [0, 1, 2].map(|which: usize| three[which][place]);
+            if here > best - SLIGHT {
+                most = Some((2.0 * here - before - after).max(most.unwrap_or(0.0)));
+            }
+        }
+    }
+    most.map(|bend| libm::sqrt(bend / SMOOTH).ceil() as u32)
+}
