@@ -121,6 +121,7 @@ fn tuning(c: &mut Criterion) {
 fn detect(c: &mut Criterion) {
     use centrode_core::detect::Method;
     use centrode_core::detect::calibration::course::{Listener, Planner};
+    use centrode_core::detect::calibration::cusum;
     use centrode_core::detect::estimates::{Placing, marginal};
     use centrode_core::scenario::{Choice, Kind};
     let mut scenario = find("miscalibrated").and_then(|preset| preset.scenario()).expect("miscalibrated");
@@ -128,13 +129,14 @@ fn detect(c: &mut Criterion) {
     let run = simulate(&scenario).expect("valid");
     let watched = run.judged.watched.as_ref().expect("cusum judges");
     let (model, commands, poses) = (&watched.model, &watched.readings.commands, &watched.readings.poses);
+    let age = cusum::age(model, commands.iter().copied());
     let mut group = c.benchmark_group("detect");
     group.bench_function("gains", |b| b.iter(|| Planner::all(model, black_box(commands), false).len()));
     for (name, with_bank) in [("filter and cusum", false), ("filter, cusum and glr", true)] {
         let moments = Planner::all(model, commands, with_bank);
         group.bench_function(format!("{name}, one run of {} readings", poses.len()), |b| {
             b.iter(|| {
-                let mut listener = Listener::default();
+                let mut listener = Listener::new(model, age);
                 let heard =
                     moments.iter().zip(poses).map(|(moment, pose)| listener.hear(moment, black_box(pose)).cusum);
                 heard.fold(0.0, f64::max)

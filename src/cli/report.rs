@@ -29,10 +29,12 @@ pub fn too_many(TooMany { time }: TooMany) -> Failure {
 }
 
 /// One estimate of a place.
-fn placed(out: &mut impl Write, estimate: &Estimated) -> std::io::Result<()> {
+/// Where a contact is; `raised` is its alarm (s), where it is not the first.
+fn placed(out: &mut impl Write, estimate: &Estimated, raised: Option<f64>) -> std::io::Result<()> {
     let Estimated { after, estimator, location, contact_time, kinds, .. } = estimate;
     let mm = |x: f64| x * 1e3;
-    write!(out, "placed      {after:.2} s after the alarm, by {}: {:.2} mm", estimator.word(), mm(location.mean))?;
+    let at = raised.map_or_else(String::new, |raised| format!(" of {raised:.3} s"));
+    write!(out, "placed      {after:.2} s after the alarm{at}, by {}: {:.2} mm", estimator.word(), mm(location.mean))?;
     if location.low < location.high {
         write!(out, ", 95 % between {:.2} and {:.2} mm", mm(location.low), mm(location.high))?;
     }
@@ -89,7 +91,12 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
         None => writeln!(out, "detected    nothing by the centrode")?,
     }
     for estimate in &report.estimates {
-        placed(out, estimate)?;
+        placed(out, estimate, None)?;
+    }
+    for next in &report.next_estimates {
+        for estimate in &next.estimates {
+            placed(out, estimate, Some(next.raised))?;
+        }
     }
     if let Some(Pressed { force: Force { time, mean, low, high }, truth }) = report.force {
         write!(out, "presses     with {mean:.2} N at {time:.3} s, between {low:.2} and {high:.2} N")?;

@@ -81,9 +81,10 @@ fn the_age_of_the_contact_that_cusum_looks_for_follows_the_noise() {
 #[test]
 fn statistics_and_alarms_are_the_prototypes() {
     for (part, free_bend) in [("d_nuisance", 0.0), ("d_free_bend", 2.0)] {
-        let moments = moments(&model(1.0, free_bend), true);
+        let model = model(1.0, free_bend);
+        let moments = moments(&model, true);
         for Golden { name, value, readings } in golden() {
-            let mut listener = Listener::default();
+            let mut listener = Listener::new(&model, cusum::age(&model, commands().into_iter()));
             let heard: Vec<_> =
                 moments.iter().zip(&readings).map(|(moment, pose)| listener.hear(moment, pose)).collect();
             let glr = &value[part];
@@ -122,7 +123,7 @@ fn places_are_the_prototypes() {
             let k = reading(&theirs["at_s"]);
             let history = History { model: &model, moments: &moments, readings: &readings[..=k] };
             let ask = |kinds, parts| {
-                let question = Question { alarm: reading(&part["alarm_s"]), kinds, parts };
+                let question = Question { from: 0, alarm: reading(&part["alarm_s"]), kinds, parts };
                 estimate(&history, &question).expect("it moved")
             };
             // The prototype tries beginnings at readings alone.
@@ -173,7 +174,7 @@ fn a_planar_experiment_does_not_care_where_its_plane_is() {
     let course = |delta: f64, readings: &[Pose]| {
         let commands: Vec<Command> = commands().into_iter().map(|command| Command { delta, ..command }).collect();
         let moments = Planner::all(&model, &commands, false);
-        let mut listener = Listener::default();
+        let mut listener = Listener::new(&model, cusum::age(&model, commands.iter().copied()));
         moments.iter().zip(readings).map(|(moment, pose)| listener.hear(moment, pose).cusum).collect::<Vec<_>>()
     };
     for (here, there) in course(0.0, &readings).into_iter().zip(course(turn, &turned)) {

@@ -45,8 +45,8 @@ mod misprints;
 mod monitor;
 mod paper;
 mod properties;
-#[cfg(feature = "gui-tests")]
 mod released;
+#[cfg(feature = "gui-tests")]
 mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]

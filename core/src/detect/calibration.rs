@@ -20,6 +20,7 @@ pub mod linear;
 pub mod marginal;
 pub mod monitor;
 pub mod noise;
+pub mod release;
 pub mod signature;
 pub mod watched;
 

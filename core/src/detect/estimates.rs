@@ -2,7 +2,7 @@
 
 use super::alarm::Event;
 use super::calibration::STATES;
-use super::calibration::marginal::{Estimate, Place, Question};
+use super::calibration::marginal::{Estimate, Place};
 use super::calibration::watched::Watched;
 use super::evidence::Evidence;
 use super::judge::Settings;
@@ -81,7 +81,7 @@ pub struct Placing {
     pub estimators: crate::scenario::Choice<Estimator>,
     /// The kinds of contact that are thought possible.
     pub plants: crate::scenario::Choice<Kind>,
-    /// Beginnings that are tried between two readings.
+    /// Beginnings that are tried from one reading to the next, at most.
     pub beginnings: u32,
 }
 
@@ -89,8 +89,7 @@ pub struct Placing {
 #[must_use]
 pub fn marginal(watched: &Watched, placing: &Placing, alarm: f64, time: f64) -> Option<Estimate> {
     let kinds: Vec<Kind> = placing.plants.iter().collect();
-    let question = Question { alarm: watched.at(alarm)?, kinds: &kinds, parts: placing.beginnings };
-    watched.estimate(watched.at(time)?, &question)
+    watched.estimate(watched.at(time)?, watched.at(alarm)?, &kinds, placing.beginnings)
 }
 
 /// What is known of a run where contacts are placed.

@@ -252,13 +252,19 @@ impl Judged {
     /// Where the contact is that the first alarm of a detector told of, at these times after it (s).
     #[must_use]
     pub fn estimates(&self, recording: &Recording, detector: Method, after: &[f64]) -> Vec<Estimated> {
+        self.first(detector).map_or_else(Vec::new, |event| self.estimates_of(recording, event, after))
+    }
+
+    /// Where the contact is that an event tells of, at these times after its alarm (s).
+    #[must_use]
+    pub fn estimates_of(&self, recording: &Recording, event: &Event, after: &[f64]) -> Vec<Estimated> {
         let known = Known {
             entries: &recording.entries,
             evidence: &self.evidence,
             watched: self.watched.as_ref(),
             settings: &self.settings,
         };
-        self.first(detector).map_or_else(Vec::new, |event| estimates(&known, event, after))
+        estimates(&known, event, after)
     }
 
     /// Whether the calibration filter's innovations are white until the first of its detectors alarms, less the readings that a contact

@@ -48,6 +48,9 @@ pub struct Report<L = ()> {
     pub detection: Option<Found>,
     /// Where the contact is that the first alarm of one detector told of, at several times after it.
     pub estimates: Vec<Estimated>,
+    /// The same of the detector's later alarms, of which there are none before a contact has been left; left out without any.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub next_estimates: Vec<Next>,
     /// How hard it presses there, at the last of these times, if it only touches; null where that is not likely, or there are no load
     /// cells.
     pub force: Option<Pressed>,
@@ -71,7 +74,7 @@ impl<L> Report<L> {
         conclusions: Conclusions,
         log: Option<L>,
     ) -> Self {
-        let Conclusions { estimates, force, whiteness } = conclusions;
+        let Conclusions { estimates, next_estimates, force, whiteness } = conclusions;
         let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
         let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
@@ -89,6 +92,7 @@ impl<L> Report<L> {
             more,
             detection,
             estimates,
+            next_estimates,
             force,
             whiteness,
             peak,
@@ -125,11 +129,25 @@ pub struct Pressed {
     pub truth: Option<f64>,
 }
 
+/// Contacts are placed for so many alarms after the first.
+pub const PLACED: usize = 15;
+
+/// The contact of a later alarm.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Next {
+    /// When the alarm was raised, s.
+    pub raised: f64,
+    /// Where the contact is.
+    pub estimates: Vec<Estimated>,
+}
+
 /// What is concluded from a run as a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Conclusions {
     /// [`Report::estimates`].
     pub estimates: Vec<Estimated>,
+    /// [`Report::next_estimates`].
+    pub next_estimates: Vec<Next>,
     /// [`Report::force`].
     pub force: Option<Pressed>,
     /// [`Report::whiteness`].
@@ -154,7 +172,10 @@ impl Conclusions {
             Pressed { force, truth }
         };
         let force = last.and_then(|last| Force::of(judged, recording, last)).map(pressed);
-        Self { estimates, force, whiteness: judged.whiteness() }
+        let later = judged.events.iter().filter(|event| event.detector == detector).skip(1).take(PLACED);
+        let next =
+            |event: &Event| Next { raised: event.raised, estimates: judged.estimates_of(recording, event, after) };
+        Self { estimates, next_estimates: later.map(next).collect(), force, whiteness: judged.whiteness() }
     }
 }
 

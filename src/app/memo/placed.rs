@@ -2,10 +2,10 @@
 //!
 //! One estimate costs more than a frame may: [`Placed::work`] makes one at a time, first what is shown.
 
-use centrode_core::detect::Method;
 use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::detect::calibration::noise::{SUSPECT, Whiteness};
 use centrode_core::detect::estimates::{Placing, marginal};
+use centrode_core::detect::{Event, Method};
 use centrode_core::run::Run;
 use centrode_core::scenario::Estimator;
 
@@ -15,6 +15,9 @@ pub const AFTER: [f64; 13] = [0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.
 /// The detectors of the calibration filter; the first that judges is the one whose alarm is placed.
 const DETECTORS: [Method; 2] = [Method::Cusum, Method::Glr];
 
+/// So many alarms of a run are placed: there are several where contacts are left again.
+const ALARMS: usize = 16;
+
 /// An alarm whose contact is placed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Alarm {
@@ -22,13 +25,15 @@ pub struct Alarm {
     pub detector: Method,
     /// When it was raised, s.
     pub raised: f64,
+    /// When it was cleared, s; none where it stands at the end.
+    pub cleared: Option<f64>,
 }
 
-/// What estimates depend on: the readings as they were heard, the alarm, and with what contacts are placed.
+/// What estimates depend on: the readings as they were heard, the alarms, and with what contacts are placed.
 #[derive(Debug, Clone, PartialEq)]
 struct Key {
     heard: u64,
-    alarm: Option<Alarm>,
+    alarms: Vec<Alarm>,
     placing: Placing,
     end: f64,
 }
@@ -74,8 +79,8 @@ pub struct Placed {
     key: Option<Key>,
     /// The detector that judges.
     detector: Option<Method>,
-    /// One for each time after the alarm that the run holds: the estimate, if there is any; none where it is not made yet.
-    made: Vec<Option<Option<Estimate>>>,
+    /// One for each alarm and each time after it that the run holds: the estimate, if there is any; none where it is not made yet.
+    made: Vec<Vec<Option<Option<Estimate>>>>,
     whiteness: Option<Whiteness>,
 }
 
@@ -84,61 +89,79 @@ impl Placed {
     pub fn renew(&mut self, run: &Run, heard: u64) {
         let settings = &run.judged.settings;
         self.detector = DETECTORS.into_iter().find(|&method| settings.thresholds.judges(method));
-        let event = self.detector.and_then(|detector| run.judged.first(detector));
-        let alarm = event.map(|event| Alarm { detector: event.detector, raised: event.raised });
-        let key = Key { heard, alarm, placing: settings.placing, end: run.sample(run.len() - 1).time };
+        let events = run.events().iter().filter(|event| Some(event.detector) == self.detector);
+        let alarm = |event: &Event| Alarm { detector: event.detector, raised: event.raised, cleared: event.cleared };
+        let alarms: Vec<Alarm> = events.take(ALARMS).map(alarm).collect();
+        let key = Key { heard, alarms, placing: settings.placing, end: run.sample(run.len() - 1).time };
         if self.key.as_ref() == Some(&key) {
             return;
         }
         let places = settings.placing.estimators.has(Estimator::Marginal) && run.judged.watched.is_some();
-        let held = |alarm: Alarm| AFTER.iter().take_while(|&after| alarm.raised + after <= key.end).count();
-        self.made = vec![None; alarm.filter(|_| places).map_or(0, held)];
+        let held = |alarm: &Alarm| AFTER.iter().take_while(|&after| alarm.raised + after <= key.end).count();
+        self.made = key.alarms.iter().map(|alarm| vec![None; if places { held(alarm) } else { 0 }]).collect();
         self.whiteness = run.judged.whiteness();
         self.key = Some(key);
     }
 
     /// Makes one estimate that is missing: the one that is due at a time (s), else the first. Returns whether more are missing.
     pub fn work(&mut self, run: &Run, time: f64) -> bool {
-        let (Some(alarm), Some(watched)) = (self.alarm(), &run.judged.watched) else { return false };
-        let due = self.due(alarm, time);
-        let missing = |&which: &usize| matches!(self.made.get(which), Some(None));
-        let Some(next) = due.into_iter().chain(0..self.made.len()).find(missing) else { return false };
-        let estimate = marginal(watched, &run.judged.settings.placing, alarm.raised, alarm.raised + AFTER[next]);
-        self.made[next] = Some(estimate);
+        let Some(watched) = &run.judged.watched else { return false };
+        let due = self.due(time).and_then(|(alarm, which)| Some([alarm, which?]));
+        let all =
+            self.made.iter().enumerate().flat_map(|(alarm, made)| (0..made.len()).map(move |which| [alarm, which]));
+        let missing = |&[alarm, which]: &[usize; 2]| self.made[alarm][which].is_none();
+        let Some([alarm, which]) = due.into_iter().chain(all).find(missing) else { return false };
+        let raised = self.alarms()[alarm].raised;
+        let estimate = marginal(watched, &run.judged.settings.placing, raised, raised + AFTER[which]);
+        self.made[alarm][which] = Some(estimate);
         self.is_working()
     }
 
     /// Whether estimates are missing.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.made.iter().any(Option::is_none)
+        self.made.iter().flatten().any(Option::is_none)
     }
 
-    /// The detector whose alarm is placed; none where neither judges.
+    /// The detector whose alarms are placed; none where neither judges.
     #[must_use]
     pub fn detector(&self) -> Option<Method> {
         self.detector
     }
 
-    /// The alarm; none while none is raised in the whole run.
+    /// Its alarms in the whole run, in order.
     #[must_use]
-    pub fn alarm(&self) -> Option<Alarm> {
-        self.key.as_ref()?.alarm
+    pub fn alarms(&self) -> &[Alarm] {
+        self.key.as_ref().map_or(&[], |key| &key.alarms)
     }
 
-    /// The last of the estimates that are not later than a time (s).
-    fn due(&self, alarm: Alarm, time: f64) -> Option<usize> {
-        // A playback position is rounded: that of the alarm counts as the alarm's.
-        let passed = |after: &&f64| alarm.raised + **after <= time + 1e-9;
-        AFTER.iter().take(self.made.len()).take_while(passed).count().checked_sub(1)
+    /// The last alarm that was raised by a time (s). A playback position is rounded: that of the alarm counts as the alarm's.
+    #[must_use]
+    pub fn alarm_at(&self, time: f64) -> Option<Alarm> {
+        self.number_at(time).map(|alarm| self.alarms()[alarm])
     }
 
-    /// What is known at a time (s); none before the alarm, and where contacts are not placed.
+    fn number_at(&self, time: f64) -> Option<usize> {
+        self.alarms().iter().rposition(|alarm| alarm.raised <= time + 1e-9)
+    }
+
+    /// Which alarm counts at a time (s), and the last of its estimates that is not later.
+    fn due(&self, time: f64) -> Option<(usize, Option<usize>)> {
+        let alarm = self.number_at(time)?;
+        let passed = |after: &&f64| self.alarms()[alarm].raised + **after <= time + 1e-9;
+        let made = self.made[alarm].len();
+        Some((alarm, AFTER.iter().take(made).take_while(passed).count().checked_sub(1)))
+    }
+
+    /// What is known at a time (s); none before an alarm, once its contact has been left, and where contacts are not placed.
     #[must_use]
     pub fn at(&self, time: f64) -> Option<Shown<'_>> {
-        let alarm = self.alarm()?;
-        let due = self.due(alarm, time)?;
-        let place = |which: usize| match &self.made[which] {
+        let (number, due) = self.due(time)?;
+        let (alarm, due) = (self.alarms()[number], due?);
+        if alarm.cleared.is_some_and(|cleared| cleared <= time) {
+            return None;
+        }
+        let place = |which: usize| match &self.made[number][which] {
             None => Place::Due,
             Some(None) => Place::Unknown,
             Some(Some(estimate)) => Place::At(estimate),
@@ -171,7 +194,7 @@ mod tests {
         let run = bench();
         let mut placed = Placed::default();
         placed.renew(&run, 0);
-        let alarm = placed.alarm().expect("an alarm");
+        let alarm = *placed.alarms().first().expect("an alarm");
         assert_eq!((alarm.detector, placed.at(alarm.raised - 0.01)), (Method::Cusum, None));
         let late = alarm.raised + 0.6;
         assert!(placed.at(late).is_some_and(|shown| shown.latest == Place::Due && shown.after == 0.5));
@@ -206,5 +229,25 @@ mod tests {
         scenario.detection.cusum = Threshold::OFF;
         again(&scenario, &mut placed);
         assert_eq!((placed.detector(), placed.is_working()), (None, false), "neither judges");
+    }
+
+    #[test]
+    fn a_contact_that_has_been_left_is_shown_no_more_and_the_next_one_has_its_own_estimates() {
+        let mut run = bench();
+        let first = *run.judged.first(Method::Cusum).expect("an alarm");
+        run.judged.events = vec![
+            Event { cleared: Some(first.raised + 1.0), ..first },
+            Event { raised: first.raised + 1.5, cleared: None, ..first },
+        ];
+        let mut placed = Placed::default();
+        placed.renew(&run, 0);
+        while placed.work(&run, first.raised + 2.0) {}
+        let shown = |after: f64| placed.at(first.raised + after).map(|shown| (shown.alarm.raised, shown.after));
+        assert_eq!(shown(0.5), Some((first.raised, 0.5)));
+        assert_eq!(
+            (shown(1.2), placed.alarm_at(first.raised + 1.2).map(|alarm| alarm.raised)),
+            (None, Some(first.raised))
+        );
+        assert_eq!(shown(1.76), Some((first.raised + 1.5, 0.25)));
     }
 }

@@ -5,6 +5,7 @@ use crate::app::memo::placed::{Alarm, Place, Placed, Shown};
 use crate::app::words::story::loaded_by;
 use centrode_core::detect::Method;
 use centrode_core::detect::calibration::marginal::Estimate;
+use centrode_core::plant::Happening;
 use centrode_core::run::Run;
 use centrode_core::scenario::Kind;
 
@@ -18,11 +19,14 @@ pub fn sentence(run: &Run, placed: &Placed, time: f64) -> Option<String> {
         Method::Glr => "GLR",
         _ => "CUSUM",
     };
-    let Some(alarm) = placed.alarm() else { return Some(format!("{name} raises no alarm.")) };
-    if time + 1e-9 < alarm.raised {
-        return Some(format!("{name} has raised no alarm yet."));
+    if placed.alarms().is_empty() {
+        return Some(format!("{name} raises no alarm."));
     }
+    let Some(alarm) = placed.alarm_at(time) else { return Some(format!("{name} has raised no alarm yet.")) };
     let told = alarmed(run, name, alarm);
+    if let Some(cleared) = alarm.cleared.filter(|cleared| *cleared <= time) {
+        return Some(format!("{told}, which was left by {} s.", number(cleared, 2)));
+    }
     Some(match placed.at(time) {
         None => format!("{told}."),
         Some(shown) => format!("{told}; {}", place(&shown)),
@@ -32,6 +36,10 @@ pub fn sentence(run: &Run, placed: &Placed, time: f64) -> Option<String> {
 /// The alarm, against the truth where that is known.
 fn alarmed(run: &Run, name: &str, Alarm { raised, .. }: Alarm) -> String {
     let (at, seconds) = (number(raised, 3), |duration: f64| format!("{} s", number(duration, 2)));
+    let before = run.plant_events().iter().rfind(|event| event.time <= raised);
+    if let Some(left) = before.filter(|event| event.what != Happening::Met) {
+        return format!("{name} raises an alarm at {at} s, {} after the contact was left", seconds(raised - left.time));
+    }
     match run.contact_time() {
         _ if run.is_recorded() => format!("{name} tells of a contact at {at} s"),
         Some(contact) if contact <= raised => {
@@ -135,7 +143,7 @@ mod tests {
     #[test]
     fn the_sentence_follows_the_cursor() {
         let (run, mut placed) = made(&bench());
-        let raised = placed.alarm().expect("an alarm").raised;
+        let raised = placed.alarms().first().expect("an alarm").raised;
         let say = |placed: &Placed, time| sentence(&run, placed, time).expect("it judges");
         assert_eq!(say(&placed, raised - 0.01), "CUSUM has raised no alarm yet.");
         assert!(say(&placed, raised).ends_with(" s after touch; placing …"));

@@ -1,8 +1,9 @@
 //! What depends on commands alone, reading by reading: shared by all repeats of a plan, or made as a stream goes on.
 
-use super::filter::{Designer, Filter, Responses, Stage};
+use super::filter::{Designer, Filter, Responses, Square, Stage};
 use super::glr::{Bank, Glr};
 use super::linear::Linear;
+use super::release::Vigil;
 use super::{Belief, Command, Noise, Six, cusum};
 use crate::model::contact::{Planar, clamped_tip, free_tip};
 use crate::model::{Mat3, Pose, Vec3};
@@ -30,6 +31,8 @@ pub struct Moment {
     pub axes: Mat3,
     /// The filter.
     pub stage: Stage,
+    /// Covariance of the errors after the reading.
+    pub covariance: Square,
     /// What [`cusum`] looks for in the innovation, W_k; zero while the robot rests.
     pub design: Six,
     /// ½ W·W.
@@ -128,8 +131,8 @@ impl Planner {
         }
         young.push_back(Flight::begin(command));
         let bank = bank.as_mut().map(|flights| flights.next(&stage, model.length, command));
-        let (pose, axes) = (linear.pose, linear.axes);
-        Moment { command: *command, pose, axes, stage, design, half: 0.5 * design.norm_squared(), bank }
+        let (pose, axes, covariance) = (linear.pose, linear.axes, *designer.covariance());
+        Moment { command: *command, pose, axes, stage, covariance, design, half: 0.5 * design.norm_squared(), bank }
     }
 
     /// The moments of a whole list of commands.
@@ -152,23 +155,58 @@ pub struct Heard {
     pub contact: f64,
     /// The generalised likelihood ratio; NaN where the moments have no bank.
     pub glr: f64,
+    /// Where this reading tells that a contact has been left: the first and the last reading that were in it, counted from 0.
+    pub left: Option<[usize; 2]>,
 }
 
 /// The few numbers of one run.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Listener {
+    model: Model,
+    age: usize,
+    statistics: Statistics,
+    vigil: Vigil,
+    /// Gains of its own, once a contact has been left: what it knows is no longer what the commands alone say.
+    own: Option<Box<Planner>>,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Statistics {
     filter: Filter,
     cusum: cusum::Cusum,
     glr: Glr,
 }
 
-impl Listener {
-    /// Takes the reading of a moment: the pose of the end disk as the tracker has it, in {B}.
-    pub fn hear(&mut self, moment: &Moment, reading: &Pose) -> Heard {
-        let innovation = self.filter.step(&moment.stage, &moment.residual(reading));
+impl Statistics {
+    fn hear(&mut self, moment: &Moment, residual: &Six) -> Heard {
+        let innovation = self.filter.step(&moment.stage, residual);
         let cusum = self.cusum.step(moment, &innovation);
         let glr = moment.bank.as_ref().map_or(f64::NAN, |bank| self.glr.step(bank, &innovation));
-        Heard { innovation, cusum, contact: self.cusum.probability(), glr }
+        Heard { innovation, cusum, contact: self.cusum.probability(), glr, left: None }
+    }
+}
+
+impl Listener {
+    /// Before the first reading. `age` is that of the [planner](Planner::new).
+    #[must_use]
+    pub fn new(model: &Model, age: usize) -> Self {
+        Self { model: *model, age, statistics: Statistics::default(), vigil: Vigil::default(), own: None }
+    }
+
+    /// Takes the reading of a moment: the pose of the end disk as the tracker has it, in {B}.
+    pub fn hear(&mut self, moment: &Moment, reading: &Pose) -> Heard {
+        let Self { model, age, statistics, vigil, own } = self;
+        let residual = moment.residual(reading);
+        let planned = own.as_mut().map(|planner| planner.next(&moment.command));
+        let mine = planned.as_ref().unwrap_or(moment);
+        let heard = statistics.hear(mine, &residual);
+        let seen = (&heard.innovation, &residual, heard.cusum);
+        let Some(release) = vigil.look(model, mine, &statistics.filter, seen) else { return heard };
+        let planner = Planner { designer: release.designer, ..Planner::new(model, *age, mine.bank.is_some()) };
+        *own = Some(Box::new(planner));
+        *statistics = Statistics { filter: release.filter, ..Statistics::default() };
+        let (cusum, contact) = (statistics.cusum.value, statistics.cusum.probability());
+        Heard { cusum, contact, left: Some(release.forgotten), ..heard }
     }
 }
 

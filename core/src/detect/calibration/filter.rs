@@ -5,7 +5,8 @@ use super::{Belief, Columns, DRIFT, Noise, STATES, Six, States};
 use libm::exp;
 use nalgebra::SMatrix;
 
-type Square = SMatrix<f64, STATES, STATES>;
+/// Covariance of the errors, in units of their prior deviations.
+pub type Square = SMatrix<f64, STATES, STATES>;
 
 /// One reading's worth of filter.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -38,6 +39,12 @@ impl Designer {
     #[must_use]
     pub fn new(belief: &Belief, noise: Noise) -> Self {
         Self { belief: *belief, noise, covariance: Square::identity(), last: None }
+    }
+
+    /// Before a reading that follows no other, where so much is known of the errors.
+    #[must_use]
+    pub fn resumed(belief: &Belief, noise: Noise, covariance: Square) -> Self {
+        Self { covariance, ..Self::new(belief, noise) }
     }
 
     /// The stage of the next reading, taken at `time` (s).
@@ -119,6 +126,13 @@ impl Default for Filter {
 }
 
 impl Filter {
+    /// Before a reading that follows no other, where the errors are estimated; of a drift nothing is.
+    #[must_use]
+    pub fn knowing(mut states: States) -> Self {
+        states.rows_mut(DRIFT, STATES - DRIFT).fill(0.0);
+        Self { states, last: Six::zeros() }
+    }
+
     /// Takes the next residual and returns its innovation.
     #[inline]
     pub fn step(&mut self, stage: &Stage, residual: &Six) -> Six {

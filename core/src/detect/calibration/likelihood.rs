@@ -119,9 +119,8 @@ pub fn parts(rows: &[&Row], grid: &Grid, best: f64) -> Option<u32> {
     let values: Vec<Vec<f64>> = rows.iter().map(|row| row.along(grid).collect()).collect();
     let mut most = None;
     for three in values.windows(3) {
-        for place in 0..grid.places.len() {
-            let [before, here, after] = [0, 1, 2].map(|which: usize| three[which][place]);
-            if here > best - SLIGHT {
+        for ((before, here), after) in three[0].iter().zip(&three[1]).zip(&three[2]) {
+            if *here > best - SLIGHT {
                 most = Some((2.0 * here - before - after).max(most.unwrap_or(0.0)));
             }
         }

@@ -71,6 +71,8 @@ pub struct Estimate {
 /// What is asked of the readings.
 #[derive(Debug, Clone, Copy)]
 pub struct Question<'a> {
+    /// The first reading at which the contact can have begun.
+    pub from: usize,
     /// The reading at which the alarm was raised.
     pub alarm: usize,
     /// The kinds of contact that are thought possible, each as likely as the others beforehand.
@@ -79,11 +81,18 @@ pub struct Question<'a> {
     pub parts: u32,
 }
 
+impl Question<'_> {
+    /// The first reading that is tried as the beginning.
+    fn first(&self) -> usize {
+        self.alarm.saturating_sub(BEFORE).max(self.from)
+    }
+}
+
 /// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved.
 #[must_use]
 pub fn estimate(history: &History, question: &Question) -> Option<Estimate> {
     let (innovations, before) = nominal(history);
-    let began = beginning(history, &innovations, question.alarm)?;
+    let began = beginning(history, &innovations, question)?;
     let calibrated = calibrate(history, began.saturating_sub(CLEAR), &before)?;
     placed(history, began, &calibrated, question)
 }
@@ -99,7 +108,7 @@ fn nominal(history: &History) -> (Vec<Six>, Vec<States>) {
 }
 
 /// The reading at which a contact most likely began, for the nominal model and clamps: every so many readings, then near the best.
-fn beginning(history: &History, heard: &[Six], alarm: usize) -> Option<usize> {
+fn beginning(history: &History, heard: &[Six], question: &Question) -> Option<usize> {
     let History { model, moments, .. } = history;
     let last = heard.len().checked_sub(1)?;
     let bends: Vec<f64> = moments[..=last].iter().map(|moment| moment.command.bend).collect();
@@ -110,8 +119,7 @@ fn beginning(history: &History, heard: &[Six], alarm: usize) -> Option<usize> {
         let side = moments[began].command.rate.signum();
         Row::new(&shapes, stages, heard, &bends, (began, 0.0), side).most(&grid)
     };
-    let moving: Vec<usize> =
-        (alarm.saturating_sub(BEFORE)..last).filter(|&began| moments[began].command.rate != 0.0).collect();
+    let moving: Vec<usize> = (question.first()..last).filter(|&began| moments[began].command.rate != 0.0).collect();
     let best = |tried: &mut dyn Iterator<Item = usize>| {
         tried.map(|at| (at, most(moving[at]))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
     };
@@ -207,13 +215,13 @@ struct Tried {
 }
 
 fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Question) -> Option<Estimate> {
-    let Question { alarm, kinds, parts } = *question;
+    let Question { kinds, parts, .. } = *question;
     let History { model, moments, readings } = history;
     let last = readings.len().min(moments.len()).checked_sub(1)?;
     let errors = linear::errors(&calibrated.states, &model.belief.deviations);
     let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
-    let first = alarm.saturating_sub(BEFORE);
+    let first = question.first();
     let moving: Vec<usize> = (first..last).filter(|&k| moments[k].command.rate != 0.0).collect();
     let side = moments[began].command.rate.signum();
     let all = kinds.iter().map(|&kind| {

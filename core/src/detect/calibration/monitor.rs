@@ -111,11 +111,12 @@ impl Monitor {
     /// looks for.
     #[must_use]
     pub fn new(watching: &Watching, clock: &Clock, model: &Model, commands: impl Iterator<Item = Command>) -> Self {
+        let age = cusum::age(model, commands);
         Self {
             tip_from_marker: clock.tip_from_marker,
             model: *model,
-            planner: Planner::new(model, cusum::age(model, commands), watching.with_bank),
-            listener: Listener::default(),
+            planner: Planner::new(model, age, watching.with_bank),
+            listener: Listener::new(model, age),
             readings: Readings::default(),
             heard: Vec::new(),
         }

@@ -4,6 +4,7 @@ use super::course::{Heard, Model, Planner};
 use super::marginal::{Estimate, History, Question, estimate, innovations};
 use super::monitor::Readings;
 use super::noise::Whiteness;
+use crate::scenario::Kind;
 
 /// A contact may have begun so long before its alarm, s.
 const BEFORE_ALARM: f64 = 0.5;
@@ -26,12 +27,25 @@ impl Watched {
         self.readings.arrived.partition_point(|arrived| *arrived <= time).checked_sub(1)
     }
 
-    /// Places the contact that an alarm told of, from readings up to `until`. `None` where nothing moved.
+    /// Places the contact that an alarm told of, from readings up to `until` without those of contacts that had been left before the
+    /// alarm. `None` where nothing moved.
     #[must_use]
-    pub fn estimate(&self, until: usize, question: &Question) -> Option<Estimate> {
-        let (commands, readings) = (self.readings.commands.get(..=until)?, self.readings.poses.get(..=until)?);
-        let moments = Planner::all(&self.model, commands, false);
-        estimate(&History { model: &self.model, moments: &moments, readings }, question)
+    pub fn estimate(&self, until: usize, alarm: usize, kinds: &[Kind], parts: u32) -> Option<Estimate> {
+        let left = self.heard.get(..=alarm)?.iter().filter_map(|heard| heard.left);
+        let (mut free, mut from) = (Vec::new(), 0);
+        let mut next = 0;
+        for [first, last] in left {
+            free.extend(next..first);
+            (next, from) = (last + 1, free.len());
+        }
+        let alarm = free.len() + alarm.checked_sub(next)?;
+        free.extend(next..=until);
+        let pick = |k: &usize| Some((*self.readings.commands.get(*k)?, *self.readings.poses.get(*k)?));
+        let (commands, readings): (Vec<_>, Vec<_>) =
+            free.iter().map(pick).collect::<Option<Vec<_>>>()?.into_iter().unzip();
+        let moments = Planner::all(&self.model, &commands, false);
+        let history = History { model: &self.model, moments: &moments, readings: &readings };
+        estimate(&history, &Question { from, alarm, kinds, parts })
     }
 
     /// Whether innovations are white, up to half a second before an alarm at a time (s), or all of them. `None` of too few.
