@@ -25,7 +25,7 @@ pub fn sentence(run: &Run, placed: &Placed, time: f64) -> Option<String> {
     let Some(alarm) = placed.alarm_at(time) else { return Some(format!("{name} has raised no alarm yet.")) };
     let told = alarmed(run, name, alarm);
     if let Some(cleared) = alarm.cleared.filter(|cleared| *cleared <= time) {
-        return Some(format!("{told}, which was left by {} s.", number(cleared, 2)));
+        return Some(format!("{told}; cleared at {} s.", number(cleared, 2)));
     }
     Some(match placed.at(time) {
         None => format!("{told}."),
@@ -164,7 +164,7 @@ mod tests {
         scenario.contact = Contact { place: centrode_core::scenario::Place::Nowhere, ..Contact::default() };
         let (run, placed) = made(&scenario);
         let said = sentence(&run, &placed, 9.0).expect("it judges");
-        assert!(said.contains(", for nothing touches the robot; "), "{said}");
+        assert!(said.contains(", for nothing touches the robot; cleared at "), "{said}");
         scenario.detection.cusum = centrode_core::scenario::Threshold::OFF;
         let (run, placed) = made(&scenario);
         assert_eq!(sentence(&run, &placed, 9.0), None);
