@@ -134,12 +134,18 @@ impl Signs<'_> {
             let line = Line::new(ends.to_vec(), width, color.alpha(step.opacity));
             scene.lines.push(line.through(0.9).lifted(self.lift));
         }
+        // The ends of the interval, so that a narrow one is seen.
+        let across = aside.normalize_or_zero() * 0.055 * self.length();
+        for end in [placed.place.low, placed.place.high].map(|s| pose(s).position) {
+            let line = Line::new(vec![end - across, end + across], 2.0, color);
+            scene.lines.push(line.through(0.9).lifted(self.lift));
+        }
         let at = pose(placed.place.mode);
         scene.labels.push(Label {
             anchor: at.point(-aside),
             offset: Vec2::new(2.0, 2.0),
             text: band::interval(placed),
-            color,
+            color: self.palette.ink,
         });
     }
 }

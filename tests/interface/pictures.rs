@@ -84,6 +84,20 @@ fn against_a_cylinder() {
     compare(&mut page, "robot-cylinder-desk-light");
 }
 
+/// The band where the calibration filter places a contact, at the alarm and once it is narrow.
+#[test]
+fn placed() {
+    let detectors = "detection.detectors=fcd,jfd,cusum";
+    for (size, theme, time, name) in
+        [(DESK, Light, 6.35, "placed-desk-light"), (PHONE, Dark, 5.95, "placed-phone-dark")]
+    {
+        let mut page = page(size, theme, time);
+        page.state_mut().as_mut().expect("built").go(&format!("preset=miscalibrated&{detectors}&t={time}"));
+        page.run_steps(2);
+        compare(&mut page, name);
+    }
+}
+
 #[test]
 fn phone() {
     let mut page = page(PHONE, Dark, 6.6);

@@ -360,6 +360,12 @@ impl View<'_> {
             let corners = [ends[0] - side, ends[0] + side, ends[1] + side, ends[1] - side];
             shaded(painter, corners, color.gamma_multiply(step.opacity));
         }
+        // The ends of the interval, so that a narrow one is seen.
+        for (end, inward) in [(placed.place.low, 1e-4), (placed.place.high, -1e-4)] {
+            let [at, beside] = [end, end + inward].map(across);
+            let side = (beside - at).normalized().rot90() * (13.0 * self.size);
+            painter.line_segment([at - side, at + side], Stroke::new(1.5, color));
+        }
     }
 
     /// After an alarm: the places of the contact that the paper and the calibration filter give it on the backbone, against the true one.
