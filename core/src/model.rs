@@ -13,6 +13,7 @@
 
 pub mod arc;
 pub mod centrode;
+pub mod chain;
 pub mod configuration;
 pub mod constrained;
 pub mod contact;

@@ -9,6 +9,7 @@
 mod bounds;
 mod calibration;
 mod calibration_filter;
+mod chain;
 #[cfg(feature = "cli")]
 mod cli;
 mod compare;
