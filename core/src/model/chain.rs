@@ -25,7 +25,7 @@ use super::{Configuration, Vec3};
 use libm::{atan2, hypot};
 use nalgebra::Vector2;
 
-pub use elastic::{Settled, Unsettled, settle};
+pub use elastic::{Settled, Unsettled, Way, settle};
 pub use free::{Disk, free};
 
 /// The integrals of a segment's curvature about x and y of its own frame, rad: U = φ (sin δ, cos δ).

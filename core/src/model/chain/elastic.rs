@@ -33,27 +33,51 @@ pub struct Settled {
     pub margin: f64,
 }
 
-/// Why there is no answer.
+/// Why there is no answer: no stable shape was found.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
-pub enum Unsettled {
-    /// An equilibrium was found from which the chain would snap away.
-    #[error("the shape is unstable: the chain buckles (stability margin {margin:.6})")]
-    Unstable {
-        /// As in [`Settled::margin`], here 0 or less.
-        margin: f64,
-    },
-    /// Pressed in step by step from the free shape, the planes lose the chain.
-    #[error("no stable shape was found: with the planes {:.1} % of the way in, the chain snaps or cannot yield", 100.0 * reached)]
-    Lost {
-        /// How far the planes came from where they just touch the free shape, as a share of the way.
-        reached: f64,
-    },
+#[error("no stable shape: {}", self.words())]
+pub struct Unsettled {
+    /// The way on which it was looked for first.
+    pub way: Way,
+    /// The share of the way up to which the shape is stable.
+    pub reached: f64,
+    /// Margin, 0 or less, of an unstable equilibrium at what is asked for, where one was found.
+    pub margin: Option<f64>,
+}
+
+/// How a chain comes to where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// It bends from straight, every U in proportion.
+    Bending,
+    /// The planes are pressed in from where they just touch the free shape, because one is in the way of the straight chain.
+    Pressing,
+}
+
+impl Unsettled {
+    fn words(&self) -> String {
+        let reached = 100.0 * self.reached;
+        let way = match self.way {
+            Way::Bending => {
+                format!("bent in proportion from straight, the chain buckles at {reached:.1} % of these bends")
+            }
+            Way::Pressing => {
+                format!(
+                    "with the planes pressed into the free shape, the chain gives way at {reached:.1} % of their path"
+                )
+            }
+        };
+        match self.margin {
+            Some(margin) => format!("{way}, and the equilibrium asked for is unstable (stability margin {margin:.6})"),
+            None => format!("{way} or cannot follow, and no other equilibrium was found"),
+        }
+    }
 }
 
 /// The shape of a chain: one configuration for each rod, from the base.
 ///
-/// Newton's method from the free shape, with the contacts that press found one by one; where that ends nowhere or at an
-/// unstable shape, the planes are pressed in step by step instead.
+/// It is the one that the chain comes to as it bends in proportion from straight, contacts met and opened on the way. Where that
+/// way ends before (the chain buckles and snaps), any stable shape that Newton's method finds from the free one is taken.
 ///
 /// ```
 /// use centrode_core::model::chain::{Contact, Rod, Torsion, settle};

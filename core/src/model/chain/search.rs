@@ -1,12 +1,13 @@
 //! Which contacts press, and the stable shape that goes with them.
 
-use super::elastic::{TOUCH, Unsettled};
+use super::elastic::{TOUCH, Unsettled, Way};
 use super::modes::{Layout, Units};
-use super::newton::{Equilibrium, Held, Unknowns, equilibrium};
+use super::newton::{Equilibrium, Held, Unknowns, equilibrium, factors};
+use super::shape::shape;
 use super::stability::margin;
 use super::{Bends, Contact, Rod, bends};
-use crate::model::Configuration;
-use nalgebra::DVector;
+use crate::model::{Configuration, Vec3};
+use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
 /// Highest Legendre terms, tried in turn.
@@ -15,8 +16,11 @@ const TERMS: [usize; 5] = [8, 12, 18, 26, 36];
 const TAIL: f64 = 1e-10;
 /// A margin this small is none: rounding may have made it.
 const LEAST_MARGIN: f64 = 1e-9;
-/// The first step by which planes are pressed in, and the least, as shares of the way.
+/// The first and longest step of a way, and the shortest, as shares of it.
 const STEPS: (f64, f64) = (0.25, 1e-3);
+/// A step in which the shape goes off further than this from where it was bound for, over its own size, may have left its
+/// branch.
+const STRAY: f64 = 0.1;
 
 /// A stable shape.
 #[derive(Debug)]
@@ -41,6 +45,12 @@ struct Pressed {
     margin: f64,
 }
 
+/// What is commanded, and where the planes are, on the way to what is asked for.
+struct Stage {
+    bends: Vec<f64>,
+    offsets: Vec<f64>,
+}
+
 /// Where a search starts from.
 #[derive(Clone)]
 struct Start {
@@ -53,7 +63,7 @@ pub(super) fn search(rods: &[Rod], configurations: &[Configuration], contacts: &
     let each: Vec<Bends> = configurations.iter().map(|at| bends(*at)).collect();
     let length = Units::of(rods).length;
     let mut before: Option<Found> = None;
-    let mut why = Unsettled::Lost { reached: 0.0 };
+    let mut why = None;
     for terms in TERMS {
         let layout = Layout::new(rods, &each, contacts, terms);
         let flat: Vec<f64> = each[..layout.segments()].iter().flat_map(|bends| [bends.x, bends.y]).collect();
@@ -82,23 +92,31 @@ pub(super) fn search(rods: &[Rod], configurations: &[Configuration], contacts: &
             }
             // More terms change nothing in what is far from settled.
             Err(error) if before.is_none() && terms > TERMS[0] => return Err(error),
-            Err(error) => (before, why) = (None, error),
+            Err(error) => (before, why) = (None, Some(error)),
         }
     }
-    before.ok_or(why)
+    before.ok_or(why.unwrap_or(Unsettled { way: Way::Bending, reached: 0.0, margin: None }))
 }
 
 impl Search<'_> {
+    /// Follows the chain as it bends in proportion from straight. Where that leads nowhere, Newton's method may find a stable
+    /// shape from the free one, or by pressing the planes in step by step.
     fn settle(&self, start: Option<Start>) -> Result<Pressed, Unsettled> {
-        let mut unstable = None;
-        for start in start.into_iter().chain([self.free()]) {
-            match self.press(&self.offsets(1.0), start) {
-                Some(pressed) if pressed.margin > LEAST_MARGIN => return Ok(pressed),
-                Some(pressed) => unstable = Some(Unsettled::Unstable { margin: pressed.margin }),
-                None => {}
-            }
+        let end = self.stage(Way::Pressing, 1.0);
+        let stable = |pressed: &Pressed| pressed.margin > LEAST_MARGIN;
+        if let Some(pressed) = start.and_then(|start| self.press(&end, start)).filter(stable) {
+            return Ok(pressed);
         }
-        self.follow().map_err(|lost| unstable.unwrap_or(lost))
+        let way = if self.clears_straight() { Way::Bending } else { Way::Pressing };
+        let reached = match self.follow(way, STRAY) {
+            Ok(pressed) => return Ok(pressed),
+            Err(reached) => reached,
+        };
+        let pressed = self.press(&end, self.free());
+        let margin = pressed.as_ref().map(|pressed| pressed.margin);
+        // Off its branch the chain snaps to another: any stable one is an answer.
+        let other = || self.follow(Way::Pressing, f64::INFINITY).ok();
+        pressed.filter(stable).or_else(other).ok_or(Unsettled { way, reached, margin })
     }
 
     /// The free shape: x = 0.
@@ -107,50 +125,83 @@ impl Search<'_> {
         Start { active: Vec::new(), at }
     }
 
-    /// Offsets with the planes pressed in by a share of the way from where each just touches the free shape.
-    fn offsets(&self, share: f64) -> Vec<f64> {
-        let exact = || self.planes.iter().map(|plane| plane.offset).collect();
-        if share == 1.0 {
-            return exact();
-        }
-        let factors = super::newton::factors(&self.free().at.x, self.bends);
-        let Some(free) = super::shape::shape(self.layout, &factors) else { return exact() };
-        let offset = |plane: &Held| {
-            let touching = plane.normal.dot(&free.ends[plane.piece].position).max(plane.offset);
-            touching + share * (plane.offset - touching)
-        };
-        self.planes.iter().map(offset).collect()
+    /// Positions of the planes' points on a chain that nothing touches.
+    fn free_points(&self, bends: &[f64]) -> Option<Vec<Vec3>> {
+        let free = shape(self.layout, &factors(&self.free().at.x, bends))?;
+        Some(self.planes.iter().map(|plane| free.ends[plane.piece].position).collect())
     }
 
-    /// Presses the planes in step by step.
-    fn follow(&self) -> Result<Pressed, Unsettled> {
+    /// Whether the straight chain passes no plane.
+    fn clears_straight(&self) -> bool {
+        let points = self.free_points(&vec![0.0; self.bends.len()]).unwrap_or_default();
+        self.planes.iter().zip(points).all(|(plane, point)| plane.normal.dot(&point) <= plane.offset + TOUCH)
+    }
+
+    /// What is commanded, and where the planes are, a share of the way along.
+    fn stage(&self, way: Way, share: f64) -> Stage {
+        let offsets: Vec<f64> = self.planes.iter().map(|plane| plane.offset).collect();
+        match way {
+            Way::Bending => Stage { bends: self.bends.iter().map(|bend| bend * share).collect(), offsets },
+            Way::Pressing if share == 1.0 => Stage { bends: self.bends.to_vec(), offsets },
+            Way::Pressing => {
+                let points = self.free_points(self.bends).unwrap_or_default();
+                let each = self.planes.iter().zip(points).map(|(plane, point)| {
+                    let touching = plane.normal.dot(&point).max(plane.offset);
+                    touching + share * (plane.offset - touching)
+                });
+                Stage { bends: self.bends.to_vec(), offsets: each.collect() }
+            }
+        }
+    }
+
+    /// Goes a way in steps short enough to stay on the branch; how far it came, where that ends before the way does.
+    fn follow(&self, way: Way, stray: f64) -> Result<Pressed, f64> {
         let (mut reached, mut step, mut start) = (0.0, STEPS.0, self.free());
+        let mut by_bends = None;
         loop {
             let next = f64::min(reached + step, 1.0);
-            match self.press(&self.offsets(next), start.clone()).filter(|pressed| pressed.margin > LEAST_MARGIN) {
+            let stage = self.stage(way, next);
+            let bound = self.predicted(&start, by_bends.as_ref(), way, next - reached);
+            let near = |pressed: &Pressed| {
+                let x = &pressed.equilibrium.at.x;
+                (x - &bound.at.x).norm() < stray * (1.0 + x.norm())
+            };
+            match self.press(&stage, bound.clone()).filter(|pressed| pressed.margin > LEAST_MARGIN && near(pressed)) {
                 Some(pressed) if next == 1.0 => return Ok(pressed),
                 Some(pressed) => {
+                    by_bends = Some(pressed.equilibrium.by_bends);
                     start = Start { active: pressed.active, at: pressed.equilibrium.at };
-                    (reached, step) = (next, 1.5 * step);
+                    (reached, step) = (next, STEPS.0.min(1.5 * step));
                 }
-                None if step < STEPS.1 => return Err(Unsettled::Lost { reached }),
+                None if step < STEPS.1 => return Err(reached),
                 None => step *= 0.5,
             }
         }
     }
 
+    /// Where a step along a way leads to first order.
+    fn predicted(&self, start: &Start, by_bends: Option<&DMatrix<f64>>, way: Way, step: f64) -> Start {
+        let Start { active, mut at } = start.clone();
+        if let (Some(by), Way::Bending) = (by_bends, way) {
+            let change = by * DVector::from_column_slice(self.bends) * step;
+            at.x += change.rows(0, self.layout.unknowns);
+            at.forces += change.rows(self.layout.unknowns, active.len());
+        }
+        Start { active, at }
+    }
+
     /// Lets go of the plane that pulls most, else takes on the one that is passed most, until neither is left.
-    fn press(&self, offsets: &[f64], start: Start) -> Option<Pressed> {
+    fn press(&self, stage: &Stage, start: Start) -> Option<Pressed> {
         let Start { mut active, mut at } = start;
         let mut tried = BTreeSet::new();
         while tried.insert(active.clone()) {
             let held: Vec<Held> =
-                active.iter().map(|&place| Held { offset: offsets[place], ..self.planes[place] }).collect();
-            let found = equilibrium(self.layout, self.bends, &held, at)?;
+                active.iter().map(|&place| Held { offset: stage.offsets[place], ..self.planes[place] }).collect();
+            let found = equilibrium(self.layout, &stage.bends, &held, at)?;
             let pull = lowest(found.at.forces.iter().copied()).filter(|(_, force)| *force < 0.0);
             let passed = lowest(self.planes.iter().enumerate().map(|(place, plane)| {
-                let held = active.contains(&place);
-                if held { 0.0 } else { offsets[place] - plane.normal.dot(&found.shape.ends[plane.piece].position) }
+                let end = found.shape.ends[plane.piece].position;
+                if active.contains(&place) { 0.0 } else { stage.offsets[place] - plane.normal.dot(&end) }
             }));
             match (pull, passed) {
                 (Some((row, _)), _) => {
