@@ -11,6 +11,9 @@ mod calibration;
 mod calibration_filter;
 mod chain;
 #[cfg(feature = "cli")]
+mod chain_command;
+mod chain_properties;
+#[cfg(feature = "cli")]
 mod cli;
 mod compare;
 mod contact_force;

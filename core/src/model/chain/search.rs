@@ -14,6 +14,8 @@ use std::collections::BTreeSet;
 const TERMS: [usize; 5] = [8, 12, 18, 26, 36];
 /// The highest term may bend a piece by so much, rad: far less moves by what is left out.
 const TAIL: f64 = 1e-10;
+/// One more step of terms may change the stability margin by so much.
+const MARGIN: f64 = 1e-10;
 /// A margin this small is none: rounding may have made it.
 const LEAST_MARGIN: f64 = 1e-9;
 /// The first and longest step of a way, and the shortest, as shares of it.
@@ -83,7 +85,8 @@ pub(super) fn search(rods: &[Rod], configurations: &[Configuration], contacts: &
         });
         match search.settle(start) {
             Ok(Pressed { active, equilibrium, margin }) => {
-                let enough = layout.tail(&equilibrium.at.x) < TAIL;
+                let settled = before.as_ref().is_some_and(|before| (before.margin - margin).abs() < MARGIN);
+                let enough = settled && layout.tail(&equilibrium.at.x) < TAIL;
                 let found = Found { layout, active, equilibrium, margin };
                 if enough {
                     return Ok(found);

@@ -14,8 +14,8 @@ pub(super) struct Group<'a> {
     /// The same table with the place of everything in the text.
     spans: Option<&'a DeTable<'a>>,
     text: &'a str,
-    /// Where the table begins.
-    start: usize,
+    /// Where the table begins; none for the whole file.
+    start: Option<usize>,
 }
 
 /// The line, from 1, of a place in a text.
@@ -35,7 +35,7 @@ pub(super) fn float(value: &toml::Value) -> Option<f64> {
 impl<'a> Group<'a> {
     /// The whole file.
     pub fn top(text: &'a str, table: &'a Table, spans: Option<&'a DeTable<'a>>) -> Self {
-        Self { path: String::new(), table, spans, text, start: 0 }
+        Self { path: String::new(), table, spans, text, start: None }
     }
 
     pub fn has(&self, key: &str) -> bool {
@@ -50,10 +50,14 @@ impl<'a> Group<'a> {
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 
+    /// The line of a place, or of the table.
+    fn line(&self, place: Option<usize>) -> Option<usize> {
+        place.or(self.start).map(|place| line(self.text, place))
+    }
+
     fn at(&self, key: &str, error: ScenarioError) -> ChainError {
         let place = self.spans.and_then(|spans| Some(spans.get_key_value(key)?.0.span().start));
-        let line = line(self.text, place.unwrap_or(self.start));
-        ChainError { line: Some(line), fault: Fault::Scenario(error) }
+        ChainError { line: self.line(place), fault: Fault::Scenario(error) }
     }
 
     /// Refuses a key's value.
@@ -69,8 +73,7 @@ impl<'a> Group<'a> {
 
     /// Refuses that a key is not given.
     pub fn missing(&self, key: &str, allowed: &str) -> ChainError {
-        let line = (self.start > 0).then(|| line(self.text, self.start));
-        ChainError { line, fault: Fault::Missing { key: self.key(key), allowed: allowed.into() } }
+        ChainError { line: self.line(None), fault: Fault::Missing { key: self.key(key), allowed: allowed.into() } }
     }
 
     /// Refuses the first key that is none of these.
@@ -134,7 +137,7 @@ impl<'a> Group<'a> {
             table,
             spans: spanned.and_then(|value| value.get_ref().as_table()),
             text: self.text,
-            start: spanned.map_or(self.start, |value| value.span().start),
+            start: spanned.map_or(self.start, |value| Some(value.span().start)),
         }))
     }
 
@@ -156,7 +159,7 @@ impl<'a> Group<'a> {
                 table: item.as_table().ok_or_else(|| refuse(LIST))?,
                 spans: spanned.and_then(|item| DeValue::as_table(item.get_ref())),
                 text: self.text,
-                start: spanned.map_or(0, |item| item.span().start),
+                start: spanned.map(|item| item.span().start),
             })
         });
         each.collect()
