@@ -2,6 +2,7 @@
 //!
 //! A change δu of curvature at s turns all that lies above by R δu: a frame at p moves by ω = ∫ R δu, v = ∫ R δu × (p − p(s)).
 
+use super::free::NONE;
 use super::modes::Layout;
 use super::shape::{Shape, sum};
 use crate::model::{Mat3, Twist, Vec3};
@@ -14,7 +15,7 @@ struct Column {
     until: Vec<Vec3>,
     /// R δu at each of these nodes, times the node's share of arc length.
     turns: Vec<Vec3>,
-    /// ∫ R δu over each of these pieces, and ∫ R δu × p.
+    /// ∫ R δu from the base to the end of each of these pieces, and ∫ R δu × p.
     angular: Vec<Vec3>,
     moment: Vec<Vec3>,
 }
@@ -44,9 +45,11 @@ impl<'a> Variation<'a> {
     /// The motion of the end of a piece by a term.
     pub fn motion(&self, mode: usize, piece: usize) -> Twist {
         let (pieces, column) = (&self.layout.modes[mode].pieces, &self.columns[mode]);
-        let count = (piece + 1).saturating_sub(pieces.start).min(pieces.len());
-        let angular: Vec3 = column.angular[..count].iter().sum();
-        let moment: Vec3 = column.moment[..count].iter().sum();
+        if piece < pieces.start {
+            return NONE;
+        }
+        let last = piece.min(pieces.end - 1) - pieces.start;
+        let (angular, moment) = (column.angular[last], column.moment[last]);
         Twist { linear: angular.cross(&self.shape.ends[piece].position) - moment, angular }
     }
 
@@ -57,9 +60,11 @@ impl<'a> Variation<'a> {
         let loads: Vec<Load> = (0..all).map(|mode| self.load(mode, &couples)).collect();
         let mut second = DMatrix::zeros(unknowns, all);
         for (j, load) in loads.iter().enumerate() {
-            for i in 0..unknowns {
-                second[(i, j)] += self.half(i, j, load);
-                second[(i, j)] += self.half(j, i, &loads[i]);
+            for i in 0..=j.min(unknowns - 1) {
+                second[(i, j)] = self.half(i, j, load) + self.half(j, i, &loads[i]);
+                if j < unknowns {
+                    second[(j, i)] = second[(i, j)];
+                }
             }
         }
         second
@@ -124,7 +129,7 @@ impl Column {
             angular: Vec::with_capacity(mode.pieces.len()),
             moment: Vec::with_capacity(mode.pieces.len()),
         };
-        let mut base = Vec3::zeros();
+        let (mut base, mut moment) = (Vec3::zeros(), Vec3::zeros());
         for (piece, values) in mode.pieces.clone().zip(mode.values.chunks_exact(count)) {
             let (first, length) = (piece * count, layout.pieces[piece].length);
             let rotations = &shape.rotations[first..first + count];
@@ -134,16 +139,16 @@ impl Column {
             let weighted = turns.iter().zip(&gauss.weights).map(|(turn, weight)| turn * *weight);
             column.turns.extend(weighted);
             let turns = &column.turns[column.turns.len() - count..];
-            let angular: Vec3 = turns.iter().sum();
             let positions = &shape.positions[first..first + count];
-            column.moment.push(turns.iter().zip(positions).map(|(turn, position)| turn.cross(position)).sum());
-            column.angular.push(angular);
-            base += angular;
+            moment += turns.iter().zip(positions).map(|(turn, position)| turn.cross(position)).sum::<Vec3>();
+            base += turns.iter().sum::<Vec3>();
+            column.moment.push(moment);
+            column.angular.push(base);
         }
         column
     }
 
     fn whole(&self) -> Vec3 {
-        self.angular.iter().sum()
+        self.angular.last().copied().unwrap_or_default()
     }
 }
