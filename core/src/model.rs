@@ -1,7 +1,8 @@
 //! The exact model of multi-backbone segments, one or several in series: kinematics, statics, centrodes, contact.
 //!
-//! Pure `f64` functions of values: nothing here can fail but the search for a chain's equilibrium, which says so, and nothing divides by the bend, so every
-//! quantity is exact to rounding on the whole domain, the straight configuration included.
+//! Pure `f64` functions of values: nothing here can fail but the search for a chain's equilibrium, which says so; and
+//! nothing divides by the bend, so every quantity is exact to rounding on the whole domain, the straight configuration
+//! included.
 //!
 //! Reading order: [`special`] (the removable singularities), [`configuration`], [`twist`], [`arc`]
 //! (pose and Jacobian anywhere along the backbone), [`joints`], [`statics`], [`centrode`],

@@ -31,7 +31,7 @@ impl Case {
     fn moved(&self, column: usize, step: f64) -> Option<Settled> {
         let mut moved = self.clone();
         let at = &mut moved.at[column / 2];
-        *at = if column % 2 == 0 {
+        *at = if column.is_multiple_of(2) {
             Configuration::new(at.bend() - step, at.delta())
         } else {
             Configuration::new(at.bend(), at.delta() + step)

@@ -100,7 +100,7 @@ fn table(out: &mut impl Write, setup: &ChainSetup, answer: &Answer) -> io::Resul
             row(if i == 0 { "  disk rotation" } else { "" }, line, "")?;
         }
         for (column, twist) in answer.twist_per_rate[k].iter().enumerate().take(2 * k + 2) {
-            let by = format!("{} {}", if column % 2 == 0 { "theta_l" } else { "delta" }, column / 2 + 1);
+            let by = format!("{} {}", if column.is_multiple_of(2) { "theta_l" } else { "delta" }, column / 2 + 1);
             row(&format!("  linear by {by}"), &scaled(&twist[..3], 1e3), "mm/rad")?;
             row(&format!("  angular by {by}"), &twist[3..], "")?;
         }
