@@ -179,5 +179,32 @@ fn log(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, experiment, update, study, tuning, detect, log);
+/// One shape of three segments, from nothing: followed as it bends from straight.
+fn chain(c: &mut Criterion) {
+    use centrode_core::model::Vec3;
+    use centrode_core::model::chain::free::point;
+    use centrode_core::model::chain::{Contact, Rod, Torsion, settle};
+    let at = [(0.8, 0.3), (0.7, 2.0), (0.6, -1.0)].map(|(bend, delta)| Configuration::new(bend, delta));
+    let met = [(0.5, 0.3), (0.4, 2.0), (0.4, -1.0)].map(|(bend, delta)| Configuration::new(bend, delta));
+    let plane = |segment: usize| {
+        let (before, after) = (point(&[0.03; 3], &met, segment, 0.015), point(&[0.03; 3], &at, segment, 0.015));
+        let normal: Vec3 = (after.position - before.position).normalize();
+        Contact { segment, at: 0.015, normal, offset: normal.dot(&before.position) }
+    };
+    let mut group = c.benchmark_group("chain");
+    for (name, torsion) in [("rigid in torsion", Torsion::Rigid), ("twisting", Torsion::Ratio(5.0))] {
+        let rods = [3e-3, 2e-3, 1e-3].map(|bending_stiffness| Rod { length: 0.03, bending_stiffness, torsion });
+        for (count, segments) in
+            [("no contact", &[][..]), ("a contact on segment 3", &[2]), ("contacts on 1 and 3", &[0, 2])]
+        {
+            let contacts: Vec<Contact> = segments.iter().map(|segment| plane(*segment)).collect();
+            group.bench_function(format!("{count}, {name}"), |b| {
+                b.iter(|| settle(black_box(&rods), &at, &contacts).expect("stable").margin);
+            });
+        }
+    }
+    group.finish();
+}
+
+criterion_group!(benches, model, chain, experiment, update, study, tuning, detect, log);
 criterion_main!(benches);

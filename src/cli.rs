@@ -29,7 +29,7 @@ use clap::{Args, Parser, Subcommand};
 use output::Failure;
 use std::fs::File;
 use std::io::{self, Read, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Contact detection on a continuum robot, headless: the same core and the same numbers as the page.
@@ -116,16 +116,8 @@ impl ScenarioArgs {
         let (place, mut draft) = match (&self.file, self.preset.as_deref().or(otherwise)) {
             _ if let Some(link) = &link => ("--link".into(), Draft::from_scenario(link.scenario())),
             (Some(path), _) => {
-                let unreadable = |error| Failure::Input(format!("cannot read {}: {error}", path.display()));
-                let mut bytes = Vec::new();
-                File::open(path)
-                    .and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes))
-                    .map_err(unreadable)?;
-                if bytes.len() as u64 > MAX_FILE {
-                    return Err(Failure::Input(format!("{}: larger than 1 MiB, not a scenario", path.display())));
-                }
                 let place = path.display().to_string();
-                let draft = Draft::from_bytes(&bytes).map_err(named(place.clone()))?;
+                let draft = Draft::from_bytes(&read(path)?).map_err(named(place.clone()))?;
                 (place, draft)
             }
             (None, Some(name)) => {
@@ -140,6 +132,17 @@ impl ScenarioArgs {
         let place = if self.sets.is_empty() { place } else { format!("{place} with --set") };
         draft.finish().map_err(named(place))
     }
+}
+
+/// The bytes of a file that a person wrote.
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    let unreadable = |error| Failure::Input(format!("cannot read {}: {error}", path.display()));
+    let mut bytes = Vec::new();
+    File::open(path).and_then(|file| file.take(MAX_FILE + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
+    if bytes.len() as u64 > MAX_FILE {
+        return Err(Failure::Input(format!("{}: larger than 1 MiB, not a scenario", path.display())));
+    }
+    Ok(bytes)
 }
 
 /// Runs the command line of this process.

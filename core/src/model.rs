@@ -1,11 +1,12 @@
-//! The exact model of one multi-backbone segment: kinematics, statics, centrodes, contact.
+//! The exact model of multi-backbone segments, one or several in series: kinematics, statics, centrodes, contact.
 //!
-//! Pure `f64` functions of values: nothing here can fail, and nothing divides by the bend, so every
-//! quantity is exact to rounding on the whole domain, the straight configuration included.
+//! Pure `f64` functions of values: nothing here can fail but the search for a chain's equilibrium, which says so; and
+//! nothing divides by the bend, so every quantity is exact to rounding on the whole domain, the straight configuration
+//! included.
 //!
 //! Reading order: [`special`] (the removable singularities), [`configuration`], [`twist`], [`arc`]
 //! (pose and Jacobian anywhere along the backbone), [`joints`], [`statics`], [`centrode`],
-//! [`constrained`] (the segment held at one point) and [`location`] (where is that point).
+//! [`constrained`] (the segment held at one point), [`location`] (where is that point) and [`chain`] (segments in series).
 //!
 //! Conventions: SI units and radians; base frame {B} at the base disk's centre, `z` along the straight
 //! backbone, `x` through backbone 1. The bend is `φ = π/2 − θL`; `φ > 0` bends toward `(cos δ, −sin δ, 0)`.
@@ -13,6 +14,7 @@
 
 pub mod arc;
 pub mod centrode;
+pub mod chain;
 pub mod configuration;
 pub mod constrained;
 pub mod contact;

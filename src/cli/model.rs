@@ -1,5 +1,7 @@
 //! `centrode model`: every quantity of the model in one configuration.
 
+mod chain;
+
 use super::output::{Failure, json};
 use centrode_core::model::contact::Meeting;
 use centrode_core::model::contact::branch::{Branch, Ending, Surface};
@@ -11,13 +13,20 @@ use centrode_core::scenario::plan::{LENGTHS, MAX_TURN, RADII, check_bend, is_bet
 use centrode_core::scenario::text::number;
 use clap::{Args, ValueEnum};
 use serde::Serialize;
+use std::f64::consts::FRAC_PI_2;
 use std::io::Write;
+use std::path::PathBuf;
 
 /// Flags of `centrode model`; SI units and radians.
 #[derive(Debug, Args)]
 pub struct ModelArgs {
+    /// Segments in series against planes, from a file (see docs/CHAIN.md), in place of one segment.
+    #[arg(long, value_name = "FILE.toml", conflicts_with_all = [
+        "theta_l", "delta", "s", "contact", "kind", "bend_at_contact", "rounding", "rate", "length", "pitch_radius", "ep_ip", "es_is",
+    ])]
+    chain: Option<PathBuf>,
     /// Tangent angle at the end disk, rad; pi/2 is straight.
-    #[arg(long, value_name = "RAD", allow_hyphen_values = true)]
+    #[arg(long, value_name = "RAD", allow_hyphen_values = true, required_unless_present = "chain", default_value_t = FRAC_PI_2)]
     theta_l: f64,
     /// Direction of the bending plane, rad.
     #[arg(long, value_name = "RAD", allow_hyphen_values = true, default_value_t = 0.0)]
@@ -144,6 +153,9 @@ struct Held {
 impl ModelArgs {
     /// Evaluates and prints.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        if let Some(path) = &self.chain {
+            return chain::execute(path, self.json, out);
+        }
         let answer = self.answer()?;
         if self.json { json(out, &answer) } else { Ok(table(out, &answer)?) }
     }

@@ -27,6 +27,11 @@ fn the_page_on_detection_shows_what_the_command_prints() {
     compare(include_str!("../../docs/DETECTION.md"), 25);
 }
 
+#[test]
+fn the_page_on_chains_shows_what_the_command_prints() {
+    compare(include_str!("../../docs/CHAIN.md"), 10);
+}
+
 /// Runs every command of a document and looks for its lines; there are more than `least`.
 fn compare(page: &str, least: usize) {
     let mut shown = 0;

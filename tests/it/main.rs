@@ -9,6 +9,10 @@
 mod bounds;
 mod calibration;
 mod calibration_filter;
+mod chain;
+#[cfg(feature = "cli")]
+mod chain_command;
+mod chain_properties;
 #[cfg(feature = "cli")]
 mod cli;
 mod compare;

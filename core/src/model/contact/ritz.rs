@@ -18,7 +18,8 @@ pub fn legendre(xi: f64) -> [f64; MODES] {
     all
 }
 
-fn recurrence(xi: f64, all: &mut [f64]) {
+/// Fills in P_0 … at ξ, as many as there is room for.
+pub(in crate::model) fn recurrence(xi: f64, all: &mut [f64]) {
     let (mut before, mut last) = (0.0, 1.0);
     for (j, p) in all.iter_mut().enumerate() {
         *p = last;
@@ -31,10 +32,38 @@ fn recurrence(xi: f64, all: &mut [f64]) {
 fn slopes(xi: f64) -> [f64; MODES] {
     let mut p = [0.0; MODES + 1];
     recurrence(xi, &mut p);
-    std::array::from_fn(|j| match j {
+    std::array::from_fn(|j| integral(xi, &p, j))
+}
+
+/// Half the integral of P_j from −1 to ξ, of the polynomials at ξ up to P_{j+1}.
+fn integral(xi: f64, p: &[f64], j: usize) -> f64 {
+    match j {
         0 => 0.5 * (xi + 1.0),
         j => (p[j + 1] - p[j - 1]) / (2.0 * (2.0 * j as f64 + 1.0)),
-    })
+    }
+}
+
+/// The same of every polynomial but the last one given.
+pub(in crate::model) fn integrals(xi: f64, p: &[f64]) -> Vec<f64> {
+    (0..p.len() - 1).map(|j| integral(xi, p, j)).collect()
+}
+
+/// So many Gauss nodes on [−1, 1], and their weights, which add up to 1.
+pub(in crate::model) fn gauss(count: usize) -> (Vec<f64>, Vec<f64>) {
+    let n = count as f64;
+    let mut p = vec![0.0; count + 1];
+    let node = |k: usize| {
+        // Newton from the usual start, which is so near that each finds its own root.
+        let mut xi = -cos(PI * (k as f64 + 0.75) / (n + 0.5));
+        let mut slope = 1.0;
+        for _ in 0..8 {
+            recurrence(xi, &mut p);
+            slope = n * (xi * p[count] - p[count - 1]) / (xi * xi - 1.0);
+            xi -= p[count] / slope;
+        }
+        (xi, 1.0 / ((1.0 - xi * xi) * slope * slope))
+    };
+    (0..count).map(node).unzip()
 }
 
 /// Gauss nodes on the part below the contact, and the slopes there.
@@ -57,20 +86,10 @@ impl Basis {
     /// Finds nodes and weights.
     #[must_use]
     pub fn new() -> Self {
-        let n = NODES as f64;
+        let (all, weight) = gauss(NODES);
         let (mut nodes, mut weights) = ([0.0; NODES], [0.0; NODES]);
-        for k in 0..NODES {
-            // Newton from the usual start, which is so near that each finds its own root.
-            let mut xi = -cos(PI * (k as f64 + 0.75) / (n + 0.5));
-            let mut slope = 1.0;
-            for _ in 0..8 {
-                let mut p = [0.0; NODES + 1];
-                recurrence(xi, &mut p);
-                slope = n * (xi * p[NODES] - p[NODES - 1]) / (xi * xi - 1.0);
-                xi -= p[NODES] / slope;
-            }
-            (nodes[k], weights[k]) = (xi, 1.0 / ((1.0 - xi * xi) * slope * slope));
-        }
+        nodes.copy_from_slice(&all);
+        weights.copy_from_slice(&weight);
         Self { nodes, weights, slopes: nodes.map(slopes) }
     }
 
