@@ -15,18 +15,26 @@ const MACROS: &[(&str, &str)] = &[
     ("nuv", r"\boldsymbol{\nu}"),
     ("etav", r"\boldsymbol{\eta}"),
     ("Om", r"\boldsymbol{\Omega}"),
-    ("norm", r"\left\Vert #1 \right\Vert"),
+    ("norm", r"\left\Vert\, #1 \,\right\Vert"),
     ("d", r"\mathrm{d}"),
 ];
+
+/// TeX of more characters may be wider than a phone.
+const LONG: usize = 100;
 
 /// Math in a line of text.
 pub fn inline(tex: &str) -> Result<String> {
     convert(tex, MathDisplay::Inline)
 }
 
-/// Math on a line of its own.
+/// Math on a line of its own. What `\qquad` parts goes below each other where there is no room.
 pub fn block(tex: &str) -> Result<String> {
-    convert(tex, MathDisplay::Block)
+    let parts: Vec<&str> = tex.split(r"\qquad").collect();
+    let longest = parts.iter().map(|part| part.len()).max().unwrap_or(0);
+    // What may have to be scrolled on a phone can be reached by the keyboard.
+    let focus = if longest > LONG { " tabindex=\"0\"" } else { "" };
+    let maths: Vec<String> = parts.into_iter().map(|part| convert(part, MathDisplay::Block)).collect::<Result<_>>()?;
+    Ok(format!("<div class=\"math\"{focus}>{}</div>", maths.concat()))
 }
 
 fn convert(tex: &str, display: MathDisplay) -> Result<String> {

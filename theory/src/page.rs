@@ -33,6 +33,7 @@ pub const CHAPTERS: [Chapter; 11] = [
 
 const FRAME: &str = include_str!("../text/page.html");
 const STYLE: &str = include_str!("../style.css");
+const ICON: &[u8] = include_bytes!("../../assets/icons/icon.svg");
 const FONT: &[u8] = include_bytes!("../font/STIXTwoMath.woff2");
 
 /// What the texts are filled with.
@@ -61,22 +62,39 @@ pub fn page(facts: &Facts) -> Result<String> {
         .replace("@DARK@", &filler.colours.variables(true))
         .replace("@FONT@", &STANDARD.encode(FONT));
     let frame = filler.fill(FRAME)?;
+    let frame = frame.replace("@ICON@", &STANDARD.encode(ICON));
     Ok(frame.replace("@STYLE@", &style).replace("@CONTENTS@", &contents).replace("@CHAPTERS@", &chapters))
 }
 
 impl Filler<'_> {
     fn fill(&mut self, text: &str) -> Result<String> {
+        mathematics(&self.orders(&self.numbered(text))?)
+    }
+
+    /// Makes links of the numbers of equations in brackets, such as (19), that are none yet.
+    fn numbered(&self, text: &str) -> String {
+        let number = |Equation { number, .. }: &Equation| {
+            (format!("({number})"), format!("<a href=\"#eq-{number}\">({number})</a>"))
+        };
+        self.equations
+            .iter()
+            .map(number)
+            .fold(text.to_owned(), |text, (plain, link)| text.replace(&link, &plain).replace(&plain, &link))
+    }
+
+    /// Replaces `{{…}}`; the words of a link may hold a number.
+    fn orders(&mut self, text: &str) -> Result<String> {
         let mut filled = String::new();
         let mut rest = text;
         while let Some((before, after)) = rest.split_once("{{") {
             filled.push_str(before);
-            let (order, behind) = after.split_once("}}").context("a {{ without }}")?;
-            let made = self.order(order.trim()).with_context(|| format!("{{{{{order}}}}}"))?;
-            filled.push_str(&made);
-            rest = behind;
+            let end = closing(after).with_context(|| format!("{{{{ without }}}} at {after:.20}"))?;
+            let order = self.orders(&after[..end])?;
+            filled.push_str(&self.order(order.trim()).with_context(|| format!("{{{{{order}}}}}"))?);
+            rest = &after[end + 2..];
         }
         filled.push_str(rest);
-        mathematics(&filled)
+        Ok(filled)
     }
 
     fn order(&mut self, order: &str) -> Result<String> {
@@ -99,7 +117,7 @@ impl Filler<'_> {
         let code: Vec<String> = code.iter().map(|code| format!("<code>{}</code>", breakable(code))).collect();
         Ok(format!(
             "<div class=\"equation\" id=\"eq-{number}\" role=\"group\" aria-label=\"Equation {number}: {name}\">\
-             <div class=\"math\" tabindex=\"0\">{}</div><a class=\"number\" href=\"#eq-{number}\" aria-label=\"Equation {number}\">({number})</a>\
+             {}<a class=\"number\" href=\"#eq-{number}\" aria-label=\"Equation {number}\">({number})</a>\
              <p class=\"code\">{}</p></div>",
             math::block(tex)?,
             code.join(" ")
@@ -119,6 +137,24 @@ impl Filler<'_> {
     }
 }
 
+/// Where the `}}` is that belongs to a `{{` before a text.
+fn closing(text: &str) -> Option<usize> {
+    let (mut depth, mut at) = (0, 0);
+    while let Some(pair) = text.as_bytes().get(at..at + 2) {
+        match pair {
+            b"}}" if depth == 0 => return Some(at),
+            b"}}" => depth -= 1,
+            b"{{" => depth += 1,
+            _ => {
+                at += 1;
+                continue;
+            }
+        }
+        at += 2;
+    }
+    None
+}
+
 /// The address of a state, as an attribute has it.
 fn address(state: &str) -> Result<String> {
     Ok(states::find(state)?.address()?.replace('&', "&amp;"))
@@ -129,19 +165,22 @@ fn mathematics(text: &str) -> Result<String> {
     let mut filled = String::new();
     for (k, part) in text.split("$$").enumerate() {
         if k % 2 == 1 {
-            write!(
-                filled,
-                "<div class=\"display\"><div class=\"math\" tabindex=\"0\">{}</div></div>",
-                math::block(part)?
-            )?;
+            write!(filled, "<div class=\"display\">{}</div>", math::block(part)?)?;
             continue;
         }
-        for (k, part) in part.split('$').enumerate() {
-            if k % 2 == 1 {
-                filled.push_str(&math::inline(part)?);
+        let mut parts = part.split('$');
+        filled.push_str(parts.next().unwrap_or_default());
+        while let (Some(tex), Some(text)) = (parts.next(), parts.next()) {
+            // A sign behind it does not begin a line.
+            let signs = text.len() - text.trim_start_matches([',', '.', ';', ':', ')']).len();
+            let (sign, text) = text.split_at(signs);
+            let math = math::inline(tex)?;
+            if sign.is_empty() {
+                filled.push_str(&math);
             } else {
-                filled.push_str(part);
+                write!(filled, "<span class=\"whole\">{math}{sign}</span>")?;
             }
+            filled.push_str(text);
         }
     }
     Ok(filled)
