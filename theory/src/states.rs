@@ -29,7 +29,7 @@ pub const STATES: &[State] = &[
     view("figure-4", "figure-4", "figure-4"),
     view("figure-8", "figure-8", "figure-8"),
     view("map", "bench", "map"),
-    at("bench", "bench", &[], 6.28),
+    at("bench", "bench", &[], 6.3),
     at("free", "free", &[], 5.5),
     at("disk-1", "disk-1", &[], 7.0),
     at("disk-3", "disk-3", &[], 5.61),

@@ -1,8 +1,8 @@
 //! The page: wasm, its JavaScript, and the files of `web/`, assembled in `dist/`.
 
-use crate::run::{cargo, root, run};
+use crate::run::{cargo, root, run, target};
 use crate::tools::{self, WASM};
-use crate::transfer;
+use crate::{theory, transfer};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,7 +18,8 @@ pub fn build(dev: bool) -> Result<PathBuf> {
     let start = Instant::now();
     tools::wasm_target()?;
     let module = compile(dev)?;
-    let files = page(&root(), bind(&module)?)?;
+    let mut files = page(&root(), bind(&module)?)?;
+    files.insert(theory::NAME.into(), theory::make()?);
     let dist = root().join("dist");
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
@@ -37,8 +38,7 @@ fn compile(dev: bool) -> Result<PathBuf> {
         .args(["--package", "centrode", "--target", WASM])
         .args(["--no-default-features", "--features", "app"])
         .args(["--profile", profile]))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
-    Ok(root().join(target).join(WASM).join(profile).join("centrode.wasm"))
+    Ok(target().join(WASM).join(profile).join("centrode.wasm"))
 }
 
 /// Makes the JavaScript side of the module.

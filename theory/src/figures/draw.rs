@@ -56,7 +56,9 @@ impl Figure {
         for ((size, letters), class) in self.sizes.into_iter().zip(TEXT).zip(CLASSES) {
             let drawing = layout(&self.chart, &Page { pixel: 0.5, ..Page::screen(size, letters) });
             let drawn = svg::painted(&drawing, &self.chart, &|ink| colours.css(ink));
-            text.push_str(&drawn.replacen("<svg ", &format!("<svg class=\"{class}\" role=\"img\" "), 1));
+            // Inside a page the name space is known.
+            let plain = drawn.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", "", 1);
+            text.push_str(&plain.replacen("<svg ", &format!("<svg class=\"{class}\" role=\"img\" "), 1));
         }
         text
     }
