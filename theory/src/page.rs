@@ -103,7 +103,7 @@ impl Filler<'_> {
         match what {
             "eq" => self.equation(of.parse()?),
             "fig" => self.figure(of, words),
-            "open" => Ok(format!("<a class=\"open\" href=\"{}\">{words}</a>", address(of)?)),
+            "open" => open(of, words),
             "fact" => Ok(self.facts.get(of)?.to_owned()),
             "symbols" => symbols::table(),
             "misprints" => misprints::table(),
@@ -129,10 +129,10 @@ impl Filler<'_> {
         self.figures += 1;
         let (state, shows) = made.state;
         Ok(format!(
-            "<figure id=\"fig-{name}\">{}<figcaption><b>Figure {}.</b> {words} <a class=\"open\" href=\"{}\">Open {shows}</a></figcaption></figure>",
+            "<figure id=\"fig-{name}\">{}<figcaption><b>Figure {}.</b> {words} {}</figcaption></figure>",
             made.drawings(&self.colours),
             self.figures,
-            address(state)?
+            open(state, &format!("Open {shows}"))?
         ))
     }
 }
@@ -155,9 +155,11 @@ fn closing(text: &str) -> Option<usize> {
     None
 }
 
-/// The address of a state, as an attribute has it.
-fn address(state: &str) -> Result<String> {
-    Ok(states::find(state)?.address()?.replace('&', "&amp;"))
+/// A link to a state of the page. On paper its fragment stands behind it, which the command takes as well.
+fn open(state: &str, words: &str) -> Result<String> {
+    let address = states::find(state)?.address()?.replace('&', "&amp;");
+    let fragment = address.trim_start_matches("./");
+    Ok(format!("<a class=\"open\" href=\"{address}\" data-fragment=\"{fragment}\">{words}</a>"))
 }
 
 /// Replaces TeX between dollars.

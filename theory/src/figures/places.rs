@@ -83,3 +83,37 @@ fn deviations(run: &Run) -> Result<Vec<[f64; 2]>> {
     let points = times.zip(bounds).take_while(|(time, _)| *time <= SHOWN);
     Ok(points.map(|(time, bound)| [time, if bound < WORST { bound } else { f64::NAN }]).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_core::model::{Assumption, Rate, locate};
+
+    #[test]
+    fn places_at_the_alarm_follow_twice_the_threshold() {
+        for (preset, most) in [("disk-3", 0.0105), ("bench", 0.0074)] {
+            let points = located(quiet(preset, &[]).unwrap()).unwrap();
+            let counted: Vec<_> = points.iter().filter(|[xi2, _]| (0.0015..most).contains(xi2)).collect();
+            assert!(counted.len() > 50);
+            for [xi2, place] in counted {
+                assert!((place - 2.0 * xi2).abs() < 1.2e-3, "{preset} at {xi2}: {place}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_late_alarm_errs_by_the_shape_that_it_takes_for_frozen() {
+        let run = quiet("disk-3", &["detection.xi2=0.0115"]).unwrap();
+        let (detection, contact) = (run.detection().unwrap(), run.plan.contact().unwrap());
+        let sample = run.sample_at(detection.time);
+        let rate = Rate { theta_l: sample.theta_l_rate, delta: 0.0 };
+        let place = |met| {
+            let assumption = Assumption { met, ..Assumption::default() };
+            let shape = run.commanded(run.place(detection.time));
+            let centrode = &sample.judgement.sensor_centrode;
+            locate(assumption, run.segment().length, shape, rate, centrode).unwrap().arc_length
+        };
+        assert!(contact.arc_length - place(None) > 4e-3, "{}", place(None));
+        assert!((contact.arc_length - place(Some(contact.bend))).abs() < 1.5e-3, "{}", place(Some(contact.bend)));
+    }
+}
