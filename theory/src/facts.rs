@@ -21,6 +21,7 @@ impl Facts {
     }
 
     /// All names.
+    #[cfg(test)]
     pub fn names(&self) -> impl Iterator<Item = &'static str> {
         self.0.keys().copied()
     }

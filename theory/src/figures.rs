@@ -25,6 +25,7 @@ pub struct Figure {
 }
 
 /// Names of all figures.
+#[cfg(test)]
 pub const NAMES: [&str; 8] =
     ["bound", "loci", "detections", "map", "centroids", "half", "place-threshold", "place-bound"];
 
