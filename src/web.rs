@@ -70,6 +70,9 @@ extern "C" {
     /// A picture is to be saved as PNG: rows from the top, red, green, blue and alpha of each pixel.
     #[wasm_bindgen(method)]
     fn pixels(this: &Hooks, name: &str, width: u32, height: u32, rgba: &[u8]);
+    /// A page at this address, from this one, is to be opened in a tab of its own.
+    #[wasm_bindgen(method)]
+    fn open(this: &Hooks, page: &str);
     /// The person is to choose a file, see [`outside::file_opened`].
     #[wasm_bindgen(method)]
     fn choose(this: &Hooks);

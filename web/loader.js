@@ -45,6 +45,7 @@ const hooks = {
   lost: (message) => fail(showLost, message),
   address: tell,
   save,
+  open: (page) => window.open(new URL(page, location.href), "_blank", "noopener"),
   post: (json) => host?.post(JSON.parse(json)),
   // Set once the program is there.
   choose: () => {},

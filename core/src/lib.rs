@@ -20,3 +20,4 @@ pub mod run;
 pub mod scenario;
 pub mod sensors;
 pub mod study;
+pub mod symbols;

@@ -8,6 +8,7 @@ use crate::app::state::{Tab, Tuning};
 use centrode_core::scenario::preset::Preset;
 use centrode_core::scenario::{Method, Threshold};
 use centrode_core::study::tuning::watch::Rule;
+use centrode_core::symbols::Symbol;
 
 /// What leaves the page or comes in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,6 +124,8 @@ pub enum Command {
     ToggleSheet,
     /// Open or close the help.
     ToggleHelp,
+    /// Open the theory, at a symbol or at its beginning.
+    Theory(Option<&'static Symbol>),
     /// Hand something out, or ask for something to come in.
     Share(Share),
     /// Put a mark at a time, s, or take it away.

@@ -21,9 +21,12 @@ use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{Scenario, ScenarioError};
 use centrode_core::study::tuning::watch::Rule;
+use centrode_core::symbols::Symbol;
 
 /// No scenario file is larger than this, bytes.
 pub const MAX_FILE: usize = 1 << 20;
+/// The theory, from this page.
+const THEORY: &str = "theory.html";
 /// How long something said in passing is shown, s.
 const SAID: f64 = 2.5;
 
@@ -62,6 +65,8 @@ pub enum Effect {
         /// The picture.
         pixels: Pixels,
     },
+    /// A page beside this one is to be opened in a tab of its own: its address from this one.
+    Open(String),
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
     /// The host page is to be told this, JSON; see [`App::request`].
@@ -184,6 +189,12 @@ impl App {
         }
         self.memo.update(&self.state.scenario);
         self.sharing.told = self.current();
+    }
+
+    /// Opens the theory, at a symbol or at its beginning.
+    pub(super) fn theory(&mut self, symbol: Option<&Symbol>) {
+        let at = symbol.map_or_else(String::new, |symbol| format!("#{}", symbol.anchor()));
+        self.sharing.hand_out(Effect::Open(format!("{THEORY}{at}")));
     }
 
     pub(super) fn load_link(&mut self, link: &Link) {

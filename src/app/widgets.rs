@@ -6,5 +6,6 @@ pub mod icon;
 pub mod rail;
 pub mod segmented;
 pub mod slider;
+pub mod symbol;
 pub mod text;
 pub mod toggle;

@@ -72,6 +72,7 @@ pub fn hand_out(effect: Effect) {
         Effect::Pixels { name, pixels: Pixels { size: [width, height], rgba } } => {
             hooks.pixels(&name, width, height, &rgba);
         }
+        Effect::Open(page) => hooks.open(&page),
         Effect::Choose => hooks.choose(),
         Effect::Post(json) => hooks.post(&json),
         Effect::ChooseLog => hooks.choose_log(),

@@ -32,4 +32,5 @@ mod logs;
 mod paper;
 mod saving;
 mod start;
+mod theory;
 mod tuning;

@@ -11,6 +11,7 @@ mod pictures;
 mod saving;
 mod stages;
 mod support;
+mod theory;
 mod tuning;
 mod ui;
 mod views;

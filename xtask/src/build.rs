@@ -1,8 +1,8 @@
 //! The page: wasm, its JavaScript, and the files of `web/`, assembled in `dist/`.
 
-use crate::run::{cargo, root, run};
+use crate::run::{cargo, root, run, target};
 use crate::tools::{self, WASM};
-use crate::transfer;
+use crate::{theory, transfer};
 use anyhow::{Context, Result};
 use std::collections::BTreeMap;
 use std::fs;
@@ -18,7 +18,7 @@ pub fn build(dev: bool) -> Result<PathBuf> {
     let start = Instant::now();
     tools::wasm_target()?;
     let module = compile(dev)?;
-    let files = page(&root(), bind(&module)?)?;
+    let files = page(&root(), bind(&module)?, theory::make()?)?;
     let dist = root().join("dist");
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
@@ -37,8 +37,7 @@ fn compile(dev: bool) -> Result<PathBuf> {
         .args(["--package", "centrode", "--target", WASM])
         .args(["--no-default-features", "--features", "app"])
         .args(["--profile", profile]))?;
-    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root().join("target"), PathBuf::from);
-    Ok(root().join(target).join(WASM).join(profile).join("centrode.wasm"))
+    Ok(target().join(WASM).join(profile).join("centrode.wasm"))
 }
 
 /// Makes the JavaScript side of the module.
@@ -69,7 +68,7 @@ fn bind(module: &Path) -> Result<Files> {
 
 /// All files of the page. What never changes under one name lies in a directory named by its content,
 /// so that no browser can mix two builds.
-fn page(root: &Path, mut parts: Files) -> Result<Files> {
+fn page(root: &Path, mut parts: Files, theory: Vec<u8>) -> Result<Files> {
     for entry in fs::read_dir(root.join("web")).context("web/")? {
         let path = entry?.path();
         if path.extension().is_some_and(|extension| extension == "js") {
@@ -88,6 +87,7 @@ fn page(root: &Path, mut parts: Files) -> Result<Files> {
 
     let mut files: Files = parts.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)).collect();
     files.insert("index.html".into(), index.into_bytes());
+    files.insert(theory::NAME.into(), theory);
     // A host page to try the page in a frame on.
     files.insert("examples/embed.html".into(), fs::read(root.join("examples/embed.html"))?);
     Ok(files)
@@ -122,7 +122,7 @@ mod tests {
 
     #[test]
     fn every_reference_of_the_page_is_relative_and_exists() {
-        let files = page(&root(), parts()).unwrap();
+        let files = page(&root(), parts(), b"theory".to_vec()).unwrap();
         let index = String::from_utf8(files["index.html"].clone()).unwrap();
         let mut references = 0;
         for attribute in ["src=\"", "href=\""] {
@@ -140,11 +140,11 @@ mod tests {
     #[test]
     fn another_module_gets_another_address() {
         let folder = |files: &Files| files.keys().next().unwrap().clone();
-        let one = page(&root(), parts()).unwrap();
+        let one = page(&root(), parts(), b"theory".to_vec()).unwrap();
         let mut changed = parts();
         changed.insert("centrode_bg.wasm".into(), vec![1; 123]);
-        let other = page(&root(), changed).unwrap();
+        let other = page(&root(), changed, Vec::new()).unwrap();
         assert_ne!(folder(&one), folder(&other));
-        assert_eq!(folder(&one), folder(&page(&root(), parts()).unwrap()));
+        assert_eq!(folder(&one), folder(&page(&root(), parts(), b"theory".to_vec()).unwrap()));
     }
 }

@@ -10,6 +10,7 @@ mod run;
 mod serve;
 mod shot;
 mod test;
+mod theory;
 mod tidy;
 mod tools;
 mod transfer;

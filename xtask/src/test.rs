@@ -2,7 +2,7 @@
 
 use crate::run::{cargo, run};
 use crate::tools::{self, WASM};
-use crate::{build, serve};
+use crate::{build, serve, theory};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -23,7 +23,8 @@ pub struct Options {
 
 /// The product with all its features. Not the whole workspace: xtask is asked for by itself, as the alias does, for its
 /// dependencies would be built a second time with the product's choice of features.
-const PRODUCT: [&str; 5] = ["--package", "centrode", "--package", "centrode-core", "--all-features"];
+const PRODUCT: [&str; 7] =
+    ["--package", "centrode", "--package", "centrode-core", "--package", "centrode-theory", "--all-features"];
 
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Stage {
@@ -37,7 +38,7 @@ enum Stage {
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
-    /// The page is built, its size is told
+    /// The page and the theory beside it are built, their sizes are told
     Page,
     /// The built page in a real browser
     Browser,
@@ -118,6 +119,7 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
         return Ok(dist.clone());
     }
     let built = build::build(dev)?;
+    theory::check(&std::fs::read_to_string(built.join(theory::NAME))?)?;
     Ok(dist.insert(built).clone())
 }
 

@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Folders and files of the repository that the rules look at.
-const WATCHED: [&str; 8] = ["core", "src", "tests", "benches", "examples", "web", "xtask", "index.html"];
+const WATCHED: [&str; 9] = ["core", "src", "theory", "tests", "benches", "examples", "web", "xtask", "index.html"];
 const KINDS: [&str; 5] = ["rs", "js", "css", "html", "wgsl"];
 
 /// `cargo xtask tidy`.

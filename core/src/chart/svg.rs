@@ -30,6 +30,16 @@ pub const FAINT: f64 = 0.28;
 /// ```
 #[must_use]
 pub fn svg(drawing: &Drawing, chart: &Chart, color: &dyn Fn(Ink) -> [u8; 3]) -> String {
+    let hex = |ink: Ink| {
+        let [r, g, b] = color(ink);
+        format!("#{r:02x}{g:02x}{b:02x}")
+    };
+    painted(drawing, chart, &hex)
+}
+
+/// The same with colours as CSS has them, such as `var(--ink)`, for a drawing inside a page whose colours change.
+#[must_use]
+pub fn painted(drawing: &Drawing, chart: &Chart, color: &dyn Fn(Ink) -> String) -> String {
     let mut page = Page { text: String::new(), color };
     page.document(drawing, chart);
     page.text
@@ -37,7 +47,7 @@ pub fn svg(drawing: &Drawing, chart: &Chart, color: &dyn Fn(Ink) -> [u8; 3]) -> 
 
 struct Page<'a> {
     text: String,
-    color: &'a dyn Fn(Ink) -> [u8; 3],
+    color: &'a dyn Fn(Ink) -> String,
 }
 
 /// A length with two decimals, without zeros that say nothing.
@@ -68,18 +78,17 @@ impl Page<'_> {
         self.text.push('\n');
     }
 
-    fn hex(&self, ink: Ink) -> String {
-        let [r, g, b] = (self.color)(ink);
-        format!("#{r:02x}{g:02x}{b:02x}")
+    fn css(&self, ink: Ink) -> String {
+        (self.color)(ink)
     }
 
     /// A colour as the attribute `name`, with its opacity where it is not whole.
     fn paint(&self, name: &str, Paint { ink, opacity }: Paint) -> String {
-        let hex = self.hex(ink);
+        let css = self.css(ink);
         if opacity < 1.0 {
-            format!("{name}=\"{hex}\" {name}-opacity=\"{}\"", length(opacity))
+            format!("{name}=\"{css}\" {name}-opacity=\"{}\"", length(opacity))
         } else {
-            format!("{name}=\"{hex}\"")
+            format!("{name}=\"{css}\"")
         }
     }
 
@@ -90,7 +99,7 @@ impl Page<'_> {
              font-family=\"{FAMILY}\" stroke-linejoin=\"round\">"
         ));
         self.line(&format!("<title>{}</title>", escaped(&chart.title)));
-        let ground = self.hex(Ink::Ground);
+        let ground = self.css(Ink::Ground);
         self.line(&format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>"));
         for shape in &drawing.shapes {
             self.shape(shape, chart);
@@ -131,9 +140,9 @@ impl Page<'_> {
 
     fn mark(&mut self, [x, y]: Spot, form: Form, radius: f64, paint: Paint, edge: Ink) {
         let (fill, stroke) = match form {
-            Form::Triangle | Form::Dot | Form::Diamond => (self.paint("fill", paint), self.hex(edge)),
-            Form::Circle => (format!("fill=\"{}\"", self.hex(edge)), self.hex(paint.ink)),
-            Form::Ring => ("fill=\"none\"".into(), self.hex(paint.ink)),
+            Form::Triangle | Form::Dot | Form::Diamond => (self.paint("fill", paint), self.css(edge)),
+            Form::Circle => (format!("fill=\"{}\"", self.css(edge)), self.css(paint.ink)),
+            Form::Ring => ("fill=\"none\"".into(), self.css(paint.ink)),
         };
         let wide = length(radius * form.stroke());
         let line = match form {
@@ -196,7 +205,7 @@ impl Page<'_> {
             Align::Center => -0.5 * width,
             Align::Right => -width,
         };
-        let fill = self.hex(text.ink);
+        let fill = self.css(text.ink);
         let weight = if strong {
             format!(" font-family=\"{STRONG_FAMILY}\" font-weight=\"{STRONG_WEIGHT}\"")
         } else {

@@ -55,6 +55,10 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     ),
 ];
 
+/// What the theory is.
+const THEORY: &str =
+    "Every equation with the function that computes it, the misprints with their proof, and what limits detection";
+
 /// Keys and what they do.
 pub const KEYS: &[(&str, &str)] = &[
     ("Space", "play or pause"),
@@ -94,6 +98,11 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
             ui,
             |ui| {
                 ui.set_width(ui.available_width() - 8.0);
+                ui.add_space(4.0);
+                let theory = egui::Button::new(RichText::new("Open the theory").font(fonts::strong(13.0)));
+                if ui.add(theory).on_hover_text(THEORY).clicked() {
+                    out.push(Command::Theory(None));
+                }
                 for (title, body) in PARAGRAPHS {
                     ui.add_space(6.0);
                     ui.label(RichText::new(*title).font(fonts::strong(13.5)).color(theme.ink));

@@ -84,6 +84,22 @@ impl Page {
     /// Opens the page and waits for nothing.
     #[track_caller]
     pub fn visit(renderer: Renderer, query: &str, options: Options) -> Self {
+        let (mut page, address) = Self::start(renderer, options);
+        page.go(&format!("{address}{query}"));
+        page
+    }
+
+    /// Opens a document beside the page, such as `theory.html`, and waits until all of it is there.
+    #[track_caller]
+    pub fn read(document: &str, options: Options) -> Self {
+        let (mut page, address) = Self::start(Renderer::WebGl, options);
+        page.browse(&format!("{address}{document}"));
+        page
+    }
+
+    /// A browser that looks as the options say, and the page's address.
+    #[track_caller]
+    fn start(renderer: Renderer, options: Options) -> (Self, String) {
         let address = std::env::var("CENTRODE_PAGE")
             .expect("CENTRODE_PAGE names no page: these tests are run by `cargo xtask test browser`");
         let mut page = Self { chromium: Chromium::start(renderer, options.scale), options };
@@ -99,8 +115,7 @@ impl Page {
         if options.phone {
             page.chromium.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         }
-        page.go(&format!("{address}{query}"));
-        page
+        (page, address)
     }
 
     /// Goes to an address and waits for nothing.

@@ -1,0 +1,45 @@
+//! The theory beside the page: made by a package of its own, so that neither page nor command carries it.
+
+use crate::run::{cargo, run, target};
+use anyhow::{Context, Result, ensure};
+use std::fs;
+
+/// Its name in the page.
+pub const NAME: &str = "theory.html";
+/// It is no larger, bytes: a page with sixteen drawings and a font.
+const LARGEST: usize = 1_000_000;
+
+/// Makes it.
+pub fn make() -> Result<Vec<u8>> {
+    let path = target().join(NAME);
+    run(cargo().args(["run", "--quiet", "--package", "centrode-theory", "--"]).arg(&path))?;
+    fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
+}
+
+/// Checks that it is whole and small, and needs no script and nothing from elsewhere.
+pub fn check(html: &str) -> Result<()> {
+    ensure!(html.starts_with("<!doctype html>") && html.trim_end().ends_with("</html>"), "{NAME} is not whole");
+    ensure!(html.len() <= LARGEST, "{NAME} has {} bytes, and at most {LARGEST} are allowed", html.len());
+    ensure!(html.contains("<math") && html.contains("<svg"), "{NAME} has no equations or no figures");
+    for word in ["<script", "<link rel=\"stylesheet\"", " src=", "=\"http", "url(http"] {
+        ensure!(!html.contains(word), "{NAME} has {word:?}: it needs no script and nothing from elsewhere");
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+
+    #[test]
+    fn what_needs_a_script_or_another_place_is_refused() {
+        let page = |inside: &str| format!("<!doctype html>\n<html><math></math><svg></svg>{inside}</html>\n");
+        assert!(check(&page("")).is_ok());
+        for inside in ["<script>1</script>", "<img src=\"a.png\">", "<a href=\"https://example.org\">a</a>"] {
+            assert!(check(&page(inside)).is_err(), "{inside}");
+        }
+        assert!(check(&page(&"a".repeat(1_000_000))).is_err());
+        assert!(check("<!doctype html><html><math></math><svg></svg>").is_err());
+        assert!(check("<!doctype html><html></html>").is_err());
+    }
+}
