@@ -12,6 +12,7 @@ mod calibration_filter;
 #[cfg(feature = "cli")]
 mod cli;
 mod compare;
+mod compare_command;
 mod contact_force;
 mod detectors;
 #[cfg(feature = "cli")]
