@@ -44,6 +44,8 @@ use memo::{Memo, Refusal};
 use message::Listener;
 use panels::chip::Chip;
 use stages::StageState;
+use stages::comparer::Comparer;
+use stages::lent::Lent;
 use stages::source::Source;
 use stages::stage::Stage;
 use stages::studies::Studies;
@@ -86,6 +88,7 @@ pub struct App {
     view: ViewState,
     studies: Studies,
     tuner: Tuner,
+    comparer: Comparer,
     stages: StageState,
     source: Option<Source>,
     sharing: Sharing,
@@ -102,6 +105,7 @@ impl App {
         theme::install(ctx);
         let state = State::default();
         ctx.set_theme(state.theme.preference());
+        let [helper, other] = Lent::two(host.helper);
         let mut app = Self {
             base: state::shipped(state.preset()),
             memo: Memo::new(&state.scenario),
@@ -111,7 +115,8 @@ impl App {
             chip: Chip::default(),
             plots: PlotState::new(host.embed.is_some()),
             studies: Studies::default(),
-            tuner: Tuner::new(host.helper),
+            tuner: Tuner::new(helper),
+            comparer: Comparer::new(other),
             stages: StageState::default(),
             source: None,
             logs: Logs::new(host.log_helper),
@@ -150,11 +155,18 @@ impl App {
         &self.tuner
     }
 
+    /// The comparison behind the view of detectors.
+    #[must_use]
+    pub fn comparer(&self) -> &Comparer {
+        &self.comparer
+    }
+
     /// Whether work for what is on the stage is left to do.
     #[must_use]
     pub fn is_working(&self) -> bool {
         self.studies.progress().is_some()
             || self.tuner.progress().is_some()
+            || self.comparer.progress().is_some()
             || self.state.stage == Stage::Robot && self.memo.placed().is_working()
     }
 
@@ -173,7 +185,11 @@ impl App {
                 None => story::sentence(run),
             },
             "log": self.log(),
-            "tuning": (self.state.stage == Stage::Tuning).then(|| self.tuner.report(self.state.tuning.rule)).flatten(),
+            "tuning": match self.state.stage {
+                Stage::Tuning => self.tuner.report(self.state.tuning.rule),
+                Stage::Detectors => self.comparer.report(),
+                _ => None,
+            },
         })
         .to_string()
     }
@@ -219,9 +235,12 @@ impl App {
         let scenario = self.memo.plan().scenario();
         // A pointer or a key that is down may be moving a threshold.
         let moving = ui.input(|input| input.pointer.any_down() || !input.keys_down.is_empty());
-        self.tuner.update((self.state.stage == Stage::Tuning).then_some(scenario), self.state.tuning.repeats, moving);
+        let on = |stage: Stage| (self.state.stage == stage).then_some(scenario);
+        // Whoever is not looked at ends what a helper does for it, before the other asks.
+        self.tuner.update(on(Stage::Tuning), self.state.tuning.repeats, moving);
+        self.comparer.update(on(Stage::Detectors), &self.state.tuning, moving);
         let frame = ui.input(|input| input.stable_dt);
-        if ui.ctx().current_pass_index() == 0 && self.tuner.work(frame) {
+        if ui.ctx().current_pass_index() == 0 && (self.tuner.work(frame) | self.comparer.work()) {
             ui.ctx().request_repaint();
         }
     }
@@ -289,6 +308,7 @@ impl App {
             view,
             studies,
             tuner,
+            comparer,
             stages,
             source,
             sharing,
@@ -351,6 +371,7 @@ impl App {
                 base: (&state.preset, base),
                 source: source.as_ref(),
                 tuner,
+                comparer,
                 tuning: state.tuning,
             };
             layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));

@@ -10,6 +10,7 @@ pub mod course;
 pub mod export;
 pub mod figure;
 pub mod map;
+pub mod remote;
 pub mod report;
 pub mod seed;
 pub mod shared;

@@ -9,7 +9,7 @@ use crate::app::words::refusal;
 use crate::app::{controls, memo, state};
 use centrode_core::scenario::keys::find;
 use centrode_core::scenario::preset::Preset;
-use centrode_core::scenario::{Contact, Place, Scenario, Start, Xi1Rule};
+use centrode_core::scenario::{Contact, Method, Place, Scenario, Start, Threshold, Thresholds, Xi1Rule};
 use centrode_core::study::tuning::watch::Rule;
 
 impl App {
@@ -48,7 +48,11 @@ impl App {
                 }),
                 Command::Tune(tuning) => self.state.tuning = tuning,
                 Command::Take { rule, threshold, length } => self.take(rule, threshold, length),
-                Command::HoldStudy(held) => self.tuner.hold(held),
+                Command::TakeDetector { method, threshold } => self.take_detector(method, threshold),
+                Command::HoldStudy(held) => match self.state.stage {
+                    Stage::Detectors => self.comparer.hold(held),
+                    _ => self.tuner.hold(held),
+                },
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetThreshold(method, to) => self.change(&[method.threshold_key()], |s| {
                     *s.detection.of_mut(method) = to;
@@ -118,6 +122,22 @@ impl App {
                 key.set_number(s, threshold);
             }
             s.filter.length = length.unwrap_or(s.filter.length);
+            Ok(())
+        });
+    }
+
+    /// Takes the threshold of a detector that a comparison has shown, and switches it on.
+    fn take_detector(&mut self, method: Method, threshold: f64) {
+        let follows = method == Method::Jfd && self.state.scenario.detection.xi1_rule == Xi1Rule::Bound;
+        let key = if follows { "detection.xi1_factor" } else { method.threshold_key() };
+        self.change(&[key, "detection.detectors"], |s| {
+            if follows && s.detection.xi1 == Threshold::OFF {
+                s.detection.xi1 = Thresholds::default().xi1;
+            }
+            if let Some(key) = find(key) {
+                key.set_number(s, threshold);
+            }
+            s.detection.detectors.set(method, true);
             Ok(())
         });
     }

@@ -118,6 +118,13 @@ pub enum Command {
         /// The filter length; none leaves it.
         length: Option<u64>,
     },
+    /// Take a threshold of a detector, as a study counts it, and switch the detector on.
+    TakeDetector {
+        /// The detector.
+        method: Method,
+        /// SI, or k where ξ1 follows the shape.
+        threshold: f64,
+    },
     /// Stop the study, or go on with it.
     HoldStudy(bool),
     /// Open or close the sheet of controls.

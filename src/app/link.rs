@@ -155,6 +155,7 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
         rule: state.tuning.rule.name(),
         false_alarms: state.tuning.wish,
         repeats: state.tuning.repeats as u64,
+        compare: state.tuning.compare,
     }
 }
 
@@ -207,7 +208,7 @@ impl App {
                 self.state.time = state::lead_in(link.scenario());
             }
         }
-        let Page { view, time: _, speed, looping, rule, false_alarms, repeats } = link.page;
+        let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare } = link.page;
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
         if let Some(only) = self.embed.and_then(Embed::stage) {
             self.state.stage = only;
@@ -218,7 +219,7 @@ impl App {
         (self.state.speed, self.state.looping) = (speed, looping);
         let rule = Rule::ALL.iter().copied().find(|known| known.name() == rule).unwrap_or(Rule::Fcd);
         let repeats = usize::try_from(repeats).unwrap_or(Tuning::default().repeats);
-        self.state.tuning = Tuning { rule, wish: false_alarms, repeats };
+        self.state.tuning = Tuning { rule, wish: false_alarms, repeats, compare };
     }
 
     /// A file has come in, chosen or dropped; or why it could not be read.

@@ -20,7 +20,7 @@ use centrode_core::study::figure::Number;
 use centrode_core::study::report::Report;
 use centrode_core::study::table2::chart::{made, with_words};
 use centrode_core::study::table2::export as table2;
-use centrode_core::study::{channels, map, timeline};
+use centrode_core::study::{Job, channels, compare, map, timeline};
 
 /// What is saved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +33,8 @@ pub enum Subject {
     Map,
     /// The pictures of the tuning view.
     Tuning,
+    /// The detectors held against each other.
+    Detectors,
     /// The live plots, and the run that they show.
     Plots,
     /// The 3D view.
@@ -70,6 +72,7 @@ impl Format {
             (Self::Png, _) => ("PNG (2×)", "The same as pixels, two to a point"),
             (Self::Csv, Subject::Plots) => ("CSV", "Every channel of the run at loop rate, in SI units"),
             (Self::Csv, Subject::Table) => ("CSV", "All tables, in SI units"),
+            (Self::Csv, Subject::Detectors) => ("CSV", "Every threshold, bound and place, in SI units"),
             (Self::Between, _) => ("CSV, A to B", "The same between the two marked times"),
             (Self::Csv, _) => ("CSV", "The numbers, in SI units"),
             (Self::Latex, _) => ("LaTeX", "Both tables as a plain tabular"),
@@ -99,6 +102,7 @@ impl Subject {
             Stage::Table2 => Some(Self::Table),
             Stage::Map => Some(Self::Map),
             Stage::Tuning => Some(Self::Tuning),
+            Stage::Detectors => Some(Self::Detectors),
             figure => figure.figure().map(Self::Figure),
         }
     }
@@ -111,6 +115,7 @@ impl Subject {
             Self::Table => "Table II".into(),
             Self::Map => "map".into(),
             Self::Tuning => "tuning".into(),
+            Self::Detectors => "detectors".into(),
             Self::Plots => "plots".into(),
             Self::View => "3D view".into(),
         }
@@ -121,7 +126,7 @@ impl Subject {
     pub fn formats(self, marked: bool) -> &'static [Format] {
         match self {
             Self::Plots if marked => &[Format::Svg, Format::Png, Format::Csv, Format::Between, Format::Json],
-            Self::Figure(_) | Self::Map | Self::Tuning => &[Format::Svg, Format::Png, Format::Csv],
+            Self::Figure(_) | Self::Map | Self::Tuning | Self::Detectors => &[Format::Svg, Format::Png, Format::Csv],
             Self::Table => &[Format::Svg, Format::Png, Format::Csv, Format::Latex],
             Self::Plots => &[Format::Svg, Format::Png, Format::Csv, Format::Json],
             Self::View => &[Format::Png, Format::Clear],
@@ -135,6 +140,7 @@ impl Subject {
             Self::Table => (Stage::Table2.key(), Stage::Table2.key()),
             Self::Map => (Stage::Map.key(), Stage::Map.key()),
             Self::Tuning => (Stage::Tuning.key(), Stage::Tuning.key()),
+            Self::Detectors => (Stage::Detectors.key(), Stage::Detectors.key()),
             Self::Plots => (Stage::Robot.key(), "run"),
             Self::View => (Stage::Robot.key(), Stage::Robot.key()),
         }
@@ -246,6 +252,10 @@ impl App {
                 Found::Map(map) => Ok(map.csv()),
                 _ => Err(UNDONE.into()),
             },
+            (Format::Csv, Subject::Detectors) => {
+                let (compare, comparison, _) = self.comparer.shown().ok_or(UNDONE)?;
+                Ok(compare::export::csv(comparison, !compare.progress().is_complete()))
+            }
             _ => Ok(csv(&self.chart(subject)?)),
         }
     }
@@ -258,6 +268,12 @@ impl App {
                 rule: tuning.rule.name(),
                 false_alarms: tuning.wish,
                 repeats: tuning.repeats as u64,
+                ..Page::default()
+            },
+            Subject::Detectors => Page {
+                false_alarms: tuning.wish,
+                repeats: tuning.repeats as u64,
+                compare: tuning.compare,
                 ..Page::default()
             },
             _ => Page::default(),
@@ -282,6 +298,10 @@ impl App {
                 None => timeline::chart(self.memo.run()),
             }),
             Subject::Tuning => self.stages.tuning(&self.tuner).ok_or_else(|| UNDONE.into()),
+            Subject::Detectors => {
+                let (compare, comparison, _) = self.comparer.shown().ok_or(UNDONE)?;
+                Ok(compare::chart::chart(compare, comparison))
+            }
             Subject::Figure(_) | Subject::Table | Subject::Map => match self.found()? {
                 Found::Figure(chart) => Ok(chart.clone()),
                 Found::Table(table, [own, other]) => Ok(with_words(table, [own, other], (&scenario, REPEATS))),

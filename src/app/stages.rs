@@ -1,6 +1,10 @@
 //! What can stand on the stage in the robot's place: a figure, Table II, the map, the tuning.
 
+mod choices;
+pub mod comparer;
+mod detectors;
 mod figure;
+pub mod lent;
 mod map;
 pub mod source;
 pub mod stage;
@@ -16,6 +20,7 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::panels::save;
 use crate::app::saving::Subject;
+use crate::app::stages::comparer::Comparer;
 use crate::app::stages::source::Source;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::stages::studies::{Found, Studies};
@@ -27,6 +32,7 @@ use crate::app::widgets::text;
 use crate::app::words::refusal;
 use centrode_core::chart::Chart;
 use centrode_core::scenario::{Plan, Scenario};
+use detectors::DetectorsState;
 use egui::{Align2, Rect, Role, Ui, pos2, vec2};
 use tuning::TuningState;
 
@@ -36,6 +42,9 @@ const PAD: f32 = 14.0;
 const LOW: f32 = 340.0;
 const WIDE: f32 = 700.0;
 
+/// The widest that the switch between both studies of the tuning gets.
+const SWITCH: f32 = 280.0;
+
 /// Pictures that are kept between frames.
 #[derive(Default)]
 pub struct StageState {
@@ -43,6 +52,7 @@ pub struct StageState {
     estimates: Option<Picture<u64>>,
     map: Option<Picture<map::Key>>,
     tuning: TuningState,
+    detectors: DetectorsState,
 }
 
 impl StageState {
@@ -67,7 +77,9 @@ pub struct Inputs<'a> {
     pub source: Option<&'a Source>,
     /// The study behind the tuning view.
     pub tuner: &'a Tuner,
-    /// What is looked at in it.
+    /// The comparison behind the view of detectors.
+    pub comparer: &'a Comparer,
+    /// What is looked at in them.
     pub tuning: Tuning,
 }
 
@@ -97,8 +109,13 @@ pub fn stage(
         }
         top = strip.bottom() + 4.0;
     }
+    if inputs.stage.section() == Section::Tuning {
+        let strip = Rect::from_min_size(pos2(rect.left() + 8.0, top), vec2(SWITCH.min(rect.width() - 16.0), 32.0));
+        switch(ui, strip, inputs.stage, out);
+        top = strip.bottom() + 4.0;
+    }
     let line = Rect::from_min_max(pos2(rect.left(), top), pos2(rect.right(), top + 2.0));
-    if let Some(progress) = studies.progress().or(inputs.tuner.left()) {
+    if let Some(progress) = studies.progress().or(inputs.tuner.left()).or(inputs.comparer.left()) {
         let share = progress.done as f32 / progress.of.max(1) as f32;
         ui.painter().rect_filled(line.with_max_x(rect.left() + rect.width() * share), 0.0, theme.accent);
     }
@@ -117,6 +134,10 @@ pub fn stage(
         tuning::tuning(ui, body, inputs, &mut state.tuning, out);
         return;
     }
+    if inputs.stage == Stage::Detectors {
+        detectors::detectors(ui, body, inputs, &mut state.detectors, out);
+        return;
+    }
     match studies.found() {
         Some((Found::Figure(shown), version)) => {
             figure::figure(ui, body, (shown, version), inputs, &mut state.figure);
@@ -128,6 +149,18 @@ pub fn stage(
         None => {
             text::paint(ui, body.center(), Align2::CENTER_CENTER, "Computing …", fonts::regular(13.5), theme.dim);
         }
+    }
+}
+
+/// Thresholds of the paper's rules, or all detectors.
+fn switch(ui: &mut Ui, strip: Rect, stage: Stage, out: &mut Vec<Command>) {
+    let options = Stage::TUNING.map(|stage| {
+        let text = if stage == Stage::Tuning { "Thresholds" } else { stage.name() };
+        Segment { text, name: text, hint: stage.summary() }
+    });
+    let chosen = Stage::TUNING.iter().position(|other| *other == stage).unwrap_or(0);
+    if let Some(picked) = segments(ui, strip, ("Study", Role::RadioButton), &options, chosen) {
+        out.push(Command::Show(Stage::TUNING[picked]));
     }
 }
 

@@ -8,8 +8,8 @@ use crate::app::controls::control::Control;
 use crate::app::controls::table;
 use crate::app::stages::stage::Stage;
 use crate::app::theme::ThemeChoice;
-use centrode_core::scenario::Scenario;
 use centrode_core::scenario::preset::{self, PRESETS, Preset};
+use centrode_core::scenario::{Detectors, Method, Scenario};
 use centrode_core::study::tuning::watch::Rule;
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
@@ -66,11 +66,13 @@ pub struct Tuning {
     pub wish: f64,
     /// Repeats of each run.
     pub repeats: usize,
+    /// The detectors that are compared.
+    pub compare: Detectors,
 }
 
 impl Default for Tuning {
     fn default() -> Self {
-        Self { rule: Rule::Fcd, wish: 0.05, repeats: 100 }
+        Self { rule: Rule::Fcd, wish: 0.05, repeats: 100, compare: Detectors::of(Method::ALL) }
     }
 }
 

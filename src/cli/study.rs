@@ -48,7 +48,8 @@ pub struct StudyArgs {
     /// The share of runs without contact that may alarm, above 0 and below 1; 0.05 by itself.
     #[arg(long, value_name = "RATE")]
     false_alarms: Option<f64>,
-    /// Compare these detectors, at their own thresholds and at equal false alarms, and place the contacts that one of them finds.
+    /// Compare these detectors, at their own thresholds, at equal false alarms and over all thresholds, and place the contacts that
+    /// one of them finds. Says which threshold of which detector to take.
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     detectors: Vec<String>,
     /// With --detectors: the share of runs without contact that may alarm, above 0 and below 1.
@@ -59,10 +60,10 @@ pub struct StudyArgs {
     /// Print JSON instead of a summary, in SI units: every cell with its curves.
     #[arg(long)]
     json: bool,
-    /// Write every threshold of every cell to a CSV file, units in the header.
+    /// Write every threshold of every cell, or detector, to a CSV file, units in the header.
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Draw operating curves and delays to a file, .svg or .png.
+    /// Draw operating curves and delays to a file, .svg or .png; with --detectors, their delays and the errors of places.
     #[arg(long, value_name = "FILE.{svg,png}")]
     svg: Option<PathBuf>,
 }

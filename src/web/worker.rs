@@ -5,7 +5,7 @@
 
 use super::with_hooks;
 use crate::app::stages::tuner::Helper;
-use centrode_core::study::tuning::remote::Remote;
+use centrode_core::study::remote::Remote;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;
 

@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
 mod contact;
+mod detectors;
 mod embed;
 mod links;
 mod logs;

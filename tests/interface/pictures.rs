@@ -2,6 +2,7 @@
 //!
 //! They are drawn by a software renderer (Mesa's lavapipe, which the test command installs), so that machines agree.
 
+use crate::detectors::{LINK, go};
 use crate::stages::show;
 use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paused, slide};
 use crate::tuning::tune;
@@ -153,6 +154,17 @@ fn tuning_on_a_phone() {
     tune(&mut page);
     finish(&mut page);
     compare(&mut page, "tuning-phone-dark");
+}
+
+#[test]
+fn detectors() {
+    let mut page = page(DESK, Light, 6.6);
+    go(&mut page, LINK);
+    finish(&mut page);
+    compare(&mut page, "detectors-desk-light");
+    click(&mut page, "Theme: light");
+    page.set_size(PHONE);
+    compare(&mut page, "detectors-phone-dark");
 }
 
 #[test]

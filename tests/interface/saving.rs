@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// Picks an entry of a card's menu, and gives what the surroundings are asked for.
-fn saved(page: &mut Page, menu: &str, entry: &str) -> Effect {
+pub fn saved(page: &mut Page, menu: &str, entry: &str) -> Effect {
     page.state_mut().as_mut().expect("built").take_effects();
     page.get_by_role_and_label(Role::Button, menu).click();
     page.run_steps(2);
@@ -28,7 +28,7 @@ fn the_file(page: &mut Page) -> Effect {
 }
 
 /// Name, kind and content of a saved file.
-fn file(effect: Effect) -> (String, &'static str, String) {
+pub fn file(effect: Effect) -> (String, &'static str, String) {
     match effect {
         Effect::Save { name, kind, bytes } => (name, kind, String::from_utf8(bytes).expect("text")),
         other => panic!("{other:?}"),
@@ -42,7 +42,7 @@ fn command(args: &[&str]) -> String {
 }
 
 /// What the command writes to the file behind its last flag.
-fn written(args: &[&str], extension: &str) -> String {
+pub fn written(args: &[&str], extension: &str) -> String {
     let name =
         format!("centrode-saving-{}-{}.{extension}", std::process::id(), args.join("-").replace(['/', '='], "-"));
     let path: PathBuf = std::env::temp_dir().join(name);

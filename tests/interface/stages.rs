@@ -1,6 +1,7 @@
 //! The views of the page, headless: every figure, Table II and the map, chosen, drawn, and used.
 
 use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, finish, fits, page_of, texts};
+use centrode::app::stages::comparer::Comparer;
 use centrode::app::stages::stage::{Section, Stage};
 use centrode::app::stages::studies::Studies;
 use centrode::app::stages::tuner::Tuner;
@@ -21,7 +22,7 @@ pub fn show(page: &mut Page, name: &str) {
     let stage = Stage::ALL.into_iter().find(|stage| stage.name() == name).expect("a stage");
     page.get_by_role_and_label(Role::Tab, stage.section().name()).click();
     page.run_steps(2);
-    if stage.section() == Section::Paper {
+    if matches!(stage.section(), Section::Paper) || stage == Stage::Detectors {
         page.get_by_role_and_label(Role::RadioButton, name).click();
         page.run_steps(2);
     }
@@ -102,7 +103,7 @@ fn every_view_is_in_sight_on_every_screen_and_the_paper_opens_where_it_was_left(
 #[test]
 fn everything_fits_in_every_size() {
     let mut page = page_of(DESK);
-    for stage in Stage::ALL.into_iter().filter(|stage| *stage != Stage::Tuning) {
+    for stage in Stage::ALL.into_iter().filter(|stage| stage.section() != Section::Tuning) {
         show(&mut page, stage.name());
         for size in [PHONE, LOW, TABLET, vec2(1280.0, 720.0), DESK] {
             page.set_size(size);
@@ -158,6 +159,22 @@ fn table_ii_stands_beside_the_simulated_one() {
 }
 
 #[test]
+fn table_ii_has_a_part_of_its_own_where_cusum_judges() {
+    let mut page = page_of(DESK);
+    show(&mut page, "Table II");
+    assert!(texts(&page, "noticed by CUSUM").is_empty(), "it is off");
+    let link = "preset=bench&detection.detectors=fcd,jfd,cusum&view=table2";
+    page.state_mut().as_mut().expect("built").go(link);
+    page.run_steps(2);
+    finish(&mut page);
+    let rows = texts(&page, "Simulated: noticed by CUSUM, placed half a second later, disk 2");
+    assert!(rows.iter().any(|row| row.contains("20 / 20") && row.contains("Estimate 15.")), "{rows:?}");
+    let held = texts(&page, "95 % intervals that hold the true place").concat();
+    assert!(held.contains("disk 1: ") && held.contains(" of 20"), "{held}");
+    fits(&page, DESK, "Table II with CUSUM");
+}
+
+#[test]
 fn a_click_on_the_map_puts_the_contact_there() {
     let mut page = page_of(DESK);
     show(&mut page, "Map");
@@ -201,14 +218,16 @@ fn odd_scenarios_are_shown_or_refused_in_words() {
 fn refused(shown: Stage, scenario: Scenario) -> String {
     let run = simulate(&Scenario::default()).expect("a run");
     let (mut studies, mut tuner, mut state) = (Studies::default(), Tuner::new(None), StageState::default());
-    let tuning = shown == Stage::Tuning;
+    let mut comparer = Comparer::new(None);
+    let (tuning, comparing) = (shown == Stage::Tuning, shown == Stage::Detectors);
     let page = Harness::builder().with_size(DESK).build_ui(move |ui| {
         centrode::app::theme::install(ui.ctx());
         tuner.update(tuning.then_some(&scenario), 5, false);
+        comparer.update(comparing.then_some(&scenario), &Tuning::default(), false);
         studies.update(shown, &scenario);
         let (base, tuner) = (("paper", &scenario), &tuner);
-        let inputs =
-            Inputs { stage: shown, plan: &run.plan, log: false, base, source: None, tuner, tuning: Tuning::default() };
+        let (log, source, comparer, tuning) = (false, None, &comparer, Tuning::default());
+        let inputs = Inputs { stage: shown, plan: &run.plan, log, base, source, tuner, comparer, tuning };
         stage(ui, ui.max_rect(), &inputs, &mut studies, &mut state, &mut Vec::new());
     });
     let said = |node: egui_kittest::Node<'_>| node.accesskit_node().label().or_else(|| node.accesskit_node().value());

@@ -5,7 +5,7 @@ use centrode_core::scenario::link::page::{MAX_REPEATS, RULES, VIEWS};
 use centrode_core::scenario::link::{Broken, Link, LinkError, MAX_LINK, PAGE_KEYS, Page, Why};
 use centrode_core::scenario::preset::{PRESETS, find};
 use centrode_core::scenario::text::Draft;
-use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::scenario::{Detectors, Method, Plan, Scenario};
 use centrode_core::study::tuning::{self, watch::Rule};
 use proptest::prelude::*;
 
@@ -241,8 +241,10 @@ fn scenario() -> impl Strategy<Value = Scenario> {
 fn page() -> impl Strategy<Value = Page> {
     let (views, rules) = (prop::sample::select(VIEWS), prop::sample::select(RULES));
     let numbers = (prop::option::of(0.0..0.3_f64), 0.1..4.0_f64, 0.001..0.999_f64, 1..MAX_REPEATS);
-    (views, rules, numbers, any::<bool>()).prop_map(|(view, rule, (time, speed, false_alarms, repeats), looping)| {
-        Page { view, rule, time, speed, looping, false_alarms, repeats }
+    let some = prop::sample::subsequence(Method::ALL, 0..=Method::ALL.len());
+    (views, rules, numbers, any::<bool>(), some).prop_map(|(view, rule, numbers, looping, some)| {
+        let (time, speed, false_alarms, repeats) = numbers;
+        Page { view, rule, time, speed, looping, false_alarms, repeats, compare: Detectors::of(&some) }
     })
 }
 

@@ -16,6 +16,7 @@ mod chain_properties;
 #[cfg(feature = "cli")]
 mod cli;
 mod compare;
+mod compare_command;
 mod contact_force;
 mod detectors;
 #[cfg(feature = "cli")]

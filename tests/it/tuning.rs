@@ -6,9 +6,9 @@ use centrode_core::scenario::Scenario;
 use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{Place, Threshold, Xi1Rule};
 use centrode_core::study::Job;
+use centrode_core::study::remote::{Answer, Found, Remote, Request, Work};
 use centrode_core::study::seed::repeat_seed;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend};
-use centrode_core::study::tuning::remote::{Answer, Remote, Request};
 use centrode_core::study::tuning::watch::{NEVER, Rule};
 use centrode_core::study::tuning::{Spec, Study};
 
@@ -232,8 +232,15 @@ fn a_study_made_elsewhere_is_the_study() {
     let mut here = study(&noisy(&["detection.xi1=off"]), 5, &[&[], &["filter.length=200"]]);
     let mut there = here.clone();
     here.finish();
-    let request = Request { id: 7, spec: there.spec().clone(), batches: there.missing() };
+    let work = Work::Thresholds { spec: there.spec().clone(), batches: there.missing() };
+    let request = Request { id: 7, work };
     let mut remote = Remote::new(&serde_json::to_string(&request).expect("JSON")).expect("a request");
+    let set = |study: &mut Study, answer: Answer| match answer.found {
+        Found::Thresholds(tallies) => {
+            tallies.into_iter().for_each(|(batch, tally)| assert!(study.set(batch as usize, tally)));
+        }
+        Found::Detectors(_) => panic!("it was asked for thresholds"),
+    };
     let mut runs = 0;
     while remote.step() {
         runs += 1;
@@ -241,11 +248,11 @@ fn a_study_made_elsewhere_is_the_study() {
         if runs % 3 == 0 {
             let answer = Answer::from_bytes(&remote.answer().expect("bytes")).expect("an answer");
             assert_eq!(answer.id, 7);
-            answer.tallies.into_iter().for_each(|(batch, tally)| assert!(there.set(batch as usize, tally)));
+            set(&mut there, answer);
         }
     }
     let last = Answer::from_bytes(&remote.answer().expect("bytes")).expect("an answer");
-    last.tallies.into_iter().for_each(|(batch, tally)| assert!(there.set(batch as usize, tally)));
+    set(&mut there, last);
     assert_eq!(runs, 4 * 5);
     assert_eq!(here, there);
     assert!(Remote::new("{}").is_err() && Answer::from_bytes(b"nonsense").is_err());

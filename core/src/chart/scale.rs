@@ -1,7 +1,7 @@
 //! Values to places along an axis, and back.
 
 use super::ticks::spread;
-use libm::sin;
+use libm::{exp, log, sin};
 use std::f64::consts::FRAC_PI_2;
 
 /// How values lie along an axis.
@@ -13,6 +13,8 @@ pub enum Spacing {
     /// Shares from 0 to 1 on an arcsine scale: both ends are spread, and intervals from equally many runs are about equally
     /// wide everywhere.
     Arcsine,
+    /// By their logarithms: equal ratios are equally far apart.
+    Log,
 }
 
 /// Maps the values of an axis to places, in points.
@@ -39,12 +41,22 @@ impl Scale {
         Self { spacing: Spacing::Arcsine, low: -margin, high: 1.0 + margin, from, to }
     }
 
+    /// A logarithmic scale: `low` lies at `from`, `high` at `to`, both above 0. An empty range, or one that reaches to 0, is widened
+    /// or cut to three powers of ten.
+    #[must_use]
+    pub fn log([low, high]: [f64; 2], ends: [f64; 2]) -> Self {
+        let high = if high > 0.0 { high } else { 1.0 };
+        let low = if low > 0.0 && low < high { low } else { 1e-3 * high };
+        Self { spacing: Spacing::Log, ..Self::new([log(low), log(high)], ends) }
+    }
+
     /// Both ends of the range; those of an arcsine scale are 0 and 1.
     #[must_use]
     pub fn range(&self) -> [f64; 2] {
         match self.spacing {
             Spacing::Even => [self.low, self.high],
             Spacing::Arcsine => [0.0, 1.0],
+            Spacing::Log => [exp(self.low), exp(self.high)],
         }
     }
 
@@ -63,7 +75,11 @@ impl Scale {
     /// Where a value lies; values far outside stay within one span of the range, so that painting stays well-conditioned.
     #[must_use]
     pub fn at(&self, value: f64) -> f64 {
-        let value = if self.spacing == Spacing::Arcsine { spread(value) } else { value };
+        let value = match self.spacing {
+            Spacing::Even => value,
+            Spacing::Arcsine => spread(value),
+            Spacing::Log => log(value.max(f64::MIN_POSITIVE)),
+        };
         let share = ((value - self.low) / (self.high - self.low)).clamp(-1.0, 2.0);
         self.from + (self.to - self.from) * share
     }
@@ -86,6 +102,7 @@ impl Scale {
                 let root = sin(FRAC_PI_2 * value.clamp(0.0, 1.0));
                 root * root
             }
+            Spacing::Log => exp(value),
         }
     }
 
@@ -105,12 +122,18 @@ mod tests {
     fn values_and_places_are_inverse() {
         let even = Scale::new([-2.0, 12.0], [300.0, 20.0]);
         let shares = Scale::shares(0.04, [10.0, 210.0]);
-        for (scale, values) in [(even, [-2.0, 0.0, 3.3, 12.0]), (shares, [0.0, 0.05, 0.5, 1.0])] {
+        let log = Scale::log([0.01, 2.0], [100.0, 0.0]);
+        for (scale, values) in
+            [(even, [-2.0, 0.0, 3.3, 12.0]), (shares, [0.0, 0.05, 0.5, 1.0]), (log, [0.01, 0.03, 1.0, 2.0])]
+        {
             assert!(values.into_iter().all(|value| (scale.value(scale.at(value)) - value).abs() < 1e-12), "{scale:?}");
         }
         assert_eq!(even.at(-2.0), 300.0);
         assert_eq!(even.at(1e300), 20.0 - 280.0);
         assert_eq!(shares.value(1e9), 1.0);
+        let decades = [0.01, 0.1, 1.0].map(|value| log.at(value));
+        assert!((decades[0] - 2.0 * decades[1] + decades[2]).abs() < 1e-9, "equal ratios are equally far apart");
+        assert!(Scale::log([0.0, 0.0], [0.0, 1.0]).range()[0] > 0.0);
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub enum Steps {
     Degrees,
     /// Shares, on a [`Scale::shares`], written in percent.
     Shares,
+    /// 1, 2 and 5 times powers of ten, on a [`Scale::log`].
+    Log,
 }
 
 impl Steps {
@@ -54,6 +56,9 @@ pub fn ticks(scale: &Scale, spacing: f64, steps: Steps) -> Vec<Tick> {
         let tick = |percent: u8| Tick { value: f64::from(percent) / 100.0, text: percent.to_string() };
         return percents(spacing / scale.length().max(1.0)).into_iter().map(tick).collect();
     }
+    if steps == Steps::Log {
+        return powers(scale, spacing);
+    }
     let [low, high] = scale.range();
     let most = (scale.length() / spacing).max(1.0);
     let step = steps.step((high - low) / most);
@@ -63,6 +68,25 @@ pub fn ticks(scale: &Scale, spacing: f64, steps: Steps) -> Vec<Tick> {
     let last = floor((high + slack) / step) as i64;
     let tick = |k: i64| Tick { value: k as f64 * step, text: number(k as f64 * step, decimals) };
     (first..=last.min(first.saturating_add(MOST))).map(tick).collect()
+}
+
+/// Powers of ten with as many of 2 and 5 times them as keep their distance.
+fn powers(scale: &Scale, spacing: f64) -> Vec<Tick> {
+    let [low, high] = scale.range();
+    let (first, last) = (floor(log10(low)) as i32, ceil(log10(high)) as i32);
+    let mut marks: Vec<Tick> = Vec::new();
+    for factor in [1.0, 2.0, 5.0] {
+        for power in first..=last {
+            let value = factor * pow(10.0, f64::from(power));
+            let inside = (low * (1.0 - 1e-9)..=high * (1.0 + 1e-9)).contains(&value);
+            let apart = |mark: &Tick| (scale.at(mark.value) - scale.at(value)).abs() >= spacing;
+            if inside && marks.iter().all(apart) {
+                marks.push(Tick { value, text: number(value, (-power).clamp(0, 9) as usize) });
+            }
+        }
+    }
+    marks.sort_by(|a, b| a.value.total_cmp(&b.value));
+    marks
 }
 
 /// Decimals that show a step of this size.
@@ -122,6 +146,16 @@ mod tests {
             assert!((2..=11).contains(&ticks.len()), "{span}: {ticks:?}");
             assert!(ticks.windows(2).all(|pair| scale.at(pair[1].value) - scale.at(pair[0].value) >= 39.9));
         }
+    }
+
+    #[test]
+    fn an_axis_of_powers_marks_ones_twos_and_fives_as_far_as_they_keep_their_distance() {
+        let texts = |points: f64| -> Vec<String> {
+            let scale = Scale::log([0.01, 3.0], [0.0, points]);
+            ticks(&scale, 20.0, Steps::Log).into_iter().map(|tick| tick.text).collect()
+        };
+        assert_eq!(texts(300.0), ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1", "2"]);
+        assert_eq!(texts(80.0), ["0.01", "0.1", "1"]);
     }
 
     #[test]

@@ -1,28 +1,35 @@
-//! Detectors side by side: false alarms and delays at their own thresholds and at equal false alarms, beside what no test can beat; and
-//! places with their intervals, beside what no estimate can beat.
+//! Detectors side by side: false alarms and delays at their own thresholds, at equal false alarms and over all thresholds, beside what no
+//! test can beat; and places with their intervals, beside what no estimate can beat.
+//!
+//! Reading order: `outcome` (what one repeat comes to), `limits` (what cannot be beaten), `comparison` (what all repeats come to),
+//! `advice` (which threshold to take), `chart` and `export`.
 
-use super::seed::repeat_seed;
-use super::tuning::rate::Share;
+pub mod advice;
+pub mod chart;
+mod comparison;
+pub mod export;
+mod limits;
+mod outcome;
+
+pub use comparison::{At, Bound, Compared, Comparison, Place};
+pub use limits::{Delay, PlaceBound};
+pub use outcome::Outcome;
+
 use super::{Job, Progress};
-use crate::detect::calibration::course::{Model, Moment, Planner};
-use crate::detect::calibration::{Command, Noise, bound, noise};
-use crate::detect::estimates::Estimated;
-use crate::detect::{Method, Settings};
-use crate::run::{Run, at_most};
-use crate::scenario::{Detectors, Estimator, Listed, Plan, Scenario, ScenarioError};
-use crate::study::course::range::quantile;
-use libm::sqrt;
-use serde::Serialize;
+use crate::detect::Method;
+use crate::run::at_most;
+use crate::scenario::{Detectors, Plan, Scenario, ScenarioError, Thresholds};
+use limits::Limits;
+use outcome::{Making, Task};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use thiserror::Error;
 
-/// Runs that the lower bound of the delay is drawn from.
-const DRAWN: usize = 4000;
 /// The longest run, in samples.
 const LONGEST: usize = 200_000;
 
 /// What to compare.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Spec {
     /// The scenario; its detectors are those that are compared.
     pub scenario: Scenario,
@@ -56,40 +63,32 @@ pub enum CompareError {
     Rate(f64),
 }
 
-/// Where the largest value so far of a detector rose, in one run: when (s), and to what.
-type Climb = Vec<[f64; 2]>;
-
-/// One place, and the truth.
-#[derive(Debug, Clone, PartialEq)]
-struct Placed {
-    estimator: Estimator,
-    after: usize,
-    /// Estimate less truth, m.
-    error: f64,
-    covers: bool,
-    width: f64,
+/// A piece of the work.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Piece {
+    /// The delay that no test can beat, at one of the rates.
+    Bound(usize),
+    /// A run without contact and one with.
+    Repeat(u64),
 }
 
-/// What one repeat came to: a run without contact and one with.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
-    free: Vec<Climb>,
-    held: Vec<Climb>,
-    /// Truth: when the contact began, s.
-    contact: Option<f64>,
-    placed: Vec<Placed>,
-    /// Whether innovations of the run without contact are white.
-    white: Option<bool>,
+/// What a piece comes to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum Made {
+    /// The delay that no test can beat, and at which rate.
+    Bound(f64, Delay),
+    /// A repeat, and which.
+    Repeat(u64, Outcome),
 }
 
 /// A comparison under way.
 #[derive(Debug, Clone)]
 pub struct Compare {
     spec: Spec,
-    plan: Plan,
-    free: Plan,
-    methods: Vec<Method>,
+    task: Task,
+    limits: Limits,
     outcomes: BTreeMap<u64, Outcome>,
+    making: Option<Making>,
 }
 
 impl Compare {
@@ -104,18 +103,20 @@ impl Compare {
         if !(spec.rate > 0.0 && spec.rate < 1.0) {
             return Err(CompareError::Rate(spec.rate));
         }
-        let mut scenario = spec.scenario.clone();
-        let methods: Vec<Method> = scenario.detection.detectors.iter().collect();
+        let methods: Vec<Method> = spec.scenario.detection.detectors.iter().collect();
         if methods.is_empty() {
             return Err(CompareError::NoDetector);
         }
-        // Places need the alarms of their detector.
-        scenario.detection.detectors.set(spec.detector, true);
-        let plan = at_most(Plan::new(&scenario)?, LONGEST)?;
+        Plan::new(&spec.scenario)?;
+        let plan = at_most(Plan::new(&judged(&spec))?, LONGEST)?;
         if plan.contact().is_none() {
             return Err(CompareError::NoContact);
         }
-        Ok(Self { free: plan.without_contact(), plan, methods, spec, outcomes: BTreeMap::new() })
+        let limits = Limits::new(&plan, spec.rate);
+        let places = spec.scenario.detection.of(spec.detector).value().is_some();
+        let after = if places { spec.after.clone() } else { Vec::new() };
+        let task = Task { free: plan.without_contact(), plan, methods, detector: spec.detector, after };
+        Ok(Self { spec, task, limits, outcomes: BTreeMap::new(), making: None })
     }
 
     /// What is compared.
@@ -124,285 +125,115 @@ impl Compare {
         &self.spec
     }
 
-    /// Makes one repeat.
+    /// Takes over what another comparison has made where both would make the same: all of it where they differ in nothing but
+    /// repeats, rate and thresholds that matter to no run, else nothing.
+    pub fn adopt(&mut self, other: &Self) {
+        if self.task != other.task {
+            return;
+        }
+        let repeats = self.spec.repeats as u64;
+        let known = other.outcomes.range(..repeats).map(|(repeat, outcome)| (*repeat, outcome.clone()));
+        self.outcomes.extend(known);
+        self.limits.adopt(&other.limits);
+    }
+
+    /// The `piece`-th piece of work, of [`Progress::of`].
     #[must_use]
-    pub fn run(&self, repeat: u64) -> Outcome {
-        let seed = |which: u64| repeat_seed(self.spec.scenario.seed, 2 * repeat + which);
-        let free = Run::new(self.free.with_seed(seed(0)));
-        let white = free.judged.whiteness().map(|test| !test.fails());
-        let held = Run::new(self.plan.with_seed(seed(1)));
-        let contact = held.contact_time();
-        Outcome {
-            free: self.climbs(&free),
-            placed: self.placed(&held, contact),
-            held: self.climbs(&held),
-            contact,
-            white,
+    pub fn piece(&self, piece: u64) -> Piece {
+        let bounds = self.limits.rates().len() as u64;
+        if piece < bounds { Piece::Bound(piece as usize) } else { Piece::Repeat(piece - bounds) }
+    }
+
+    /// Makes a piece; changes nothing, so that many can be made at once. None where there is no such piece.
+    #[must_use]
+    pub fn make(&self, piece: Piece) -> Option<Made> {
+        match piece {
+            Piece::Bound(place) => {
+                let rate = *self.limits.rates().get(place)?;
+                Some(Made::Bound(rate, self.limits.delay(rate, self.spec.scenario.seed)?))
+            }
+            Piece::Repeat(repeat) => {
+                let mut making = Making::new(repeat);
+                while !making.step(&self.task) {}
+                Some(Made::Repeat(repeat, making.outcome()))
+            }
         }
     }
 
-    fn climbs(&self, run: &Run) -> Vec<Climb> {
-        let thresholds = &self.plan.scenario().detection;
-        let climb = |method: &Method| {
-            let mut climb: Climb = Vec::new();
-            let mut most = f64::NEG_INFINITY;
-            for (entry, evidence) in run.recording.entries.iter().zip(&run.judged.evidence) {
-                let unit = method.unit(thresholds, evidence.judgement.shape_bound);
-                let value = method.statistic(&evidence.judgement, entry.time, thresholds).counted();
-                if let Some(value) = value.map(|value| value / unit)
-                    && value > most
-                {
-                    most = value;
-                    climb.push([entry.time, value]);
+    /// Counts a piece in. One that was not asked for, or that does not fit, is left; returns whether it fits.
+    pub fn add(&mut self, made: Made) -> bool {
+        match made {
+            Made::Bound(rate, delay) => self.limits.set(rate, delay),
+            Made::Repeat(repeat, outcome) => {
+                let fits = outcome.is_of(&self.task) && repeat < self.spec.repeats as u64;
+                if fits {
+                    self.outcomes.insert(repeat, outcome);
                 }
+                fits
             }
-            climb
-        };
-        self.methods.iter().map(climb).collect()
-    }
-
-    fn placed(&self, run: &Run, contact: Option<f64>) -> Vec<Placed> {
-        let (Some(event), Some(contact)) = (run.judged.first(self.spec.detector), contact) else { return Vec::new() };
-        let Some(truth) = run.plan.contact().map(|contact| contact.arc_length) else { return Vec::new() };
-        if event.raised < contact {
-            return Vec::new();
         }
-        let estimates = run.judged.estimates(&run.recording, self.spec.detector, &self.spec.after);
-        let placed = |estimate: &Estimated| {
-            let location = &estimate.location;
-            Some(Placed {
-                estimator: estimate.estimator,
-                after: self.spec.after.iter().position(|after| *after == estimate.after)?,
-                error: location.mean - truth,
-                covers: (location.low..=location.high).contains(&truth),
-                width: location.high - location.low,
-            })
-        };
-        estimates.iter().filter_map(placed).collect()
     }
 
-    /// Counts a repeat in.
-    pub fn add(&mut self, repeat: u64, outcome: Outcome) {
-        self.outcomes.insert(repeat, outcome);
-    }
-
-    /// What the repeats so far come to.
+    /// Repeats made.
     #[must_use]
-    pub fn comparison(&self) -> Comparison {
-        let thresholds = &self.plan.scenario().detection;
-        let detectors = self.methods.iter().enumerate().map(|(place, &method)| {
-            let most = |outcome: &Outcome| outcome.free[place].last().map_or(f64::NEG_INFINITY, |last| last[1]);
-            let mut highs: Vec<f64> = self.outcomes.values().map(most).collect();
-            highs.sort_by(|a, b| b.total_cmp(a));
-            let allowed = (self.spec.rate * highs.len() as f64) as usize;
-            let equal = highs.get(allowed).copied().filter(|high| high.is_finite());
-            let own = method.setting(thresholds);
-            let at = |threshold: f64| self.at(place, threshold);
-            Compared { detector: method.key(), own: own.map(at), equal: equal.map(at) }
-        });
-        let white = self.outcomes.values().filter_map(|outcome| outcome.white);
-        let (mut tested, mut passed) = (0, 0);
-        white.for_each(|white| {
-            tested += 1;
-            passed += u64::from(white);
-        });
-        let delays = self.bound();
-        Comparison {
-            repeats: self.outcomes.len() as u64,
-            rate: self.spec.rate,
-            detectors: detectors.collect(),
-            bound: delays,
-            white: Share::new(passed, tested),
-            places: self.places(),
+    pub fn repeats(&self) -> u64 {
+        self.outcomes.len() as u64
+    }
+
+    /// The pieces that are not made.
+    pub fn missing(&self) -> impl Iterator<Item = Piece> + '_ {
+        let bounds = (0..self.limits.rates().len()).filter(|place| !self.limits.has(*place)).map(Piece::Bound);
+        let repeats = (0..self.spec.repeats as u64).filter(|repeat| !self.outcomes.contains_key(repeat));
+        bounds.chain(repeats.map(Piece::Repeat))
+    }
+
+    /// A part of a piece, small enough for a frame; what it comes to once it is whole. A piece that is left for another begins anew.
+    pub fn part(&mut self, piece: Piece) -> Option<Made> {
+        let Piece::Repeat(repeat) = piece else { return self.make(piece) };
+        let begun = self.making.take().filter(|making| making.repeat() == repeat);
+        let mut making = begun.unwrap_or_else(|| Making::new(repeat));
+        if making.step(&self.task) {
+            return Some(Made::Repeat(repeat, making.outcome()));
         }
-    }
-
-    /// One detector at one threshold.
-    fn at(&self, place: usize, threshold: f64) -> At {
-        let first = |climb: &Climb| climb.iter().find(|[_, value]| *value > threshold).map(|[time, _]| *time);
-        let outcomes = || self.outcomes.values();
-        let alarms = outcomes().filter(|outcome| first(&outcome.free[place]).is_some()).count() as u64;
-        let (mut met, mut early, mut delays) = (0, 0, Vec::new());
-        for outcome in outcomes() {
-            let Some(contact) = outcome.contact else { continue };
-            met += 1;
-            match first(&outcome.held[place]) {
-                Some(time) if time < contact => early += 1,
-                Some(time) => delays.push(time - contact),
-                None => {}
-            }
-        }
-        At {
-            threshold,
-            false_alarms: Share::new(alarms, self.outcomes.len() as u64),
-            found: Share::new(delays.len() as u64, met),
-            early: Share::new(early, met),
-            median: quantile(&mut delays.clone(), 0.5).unwrap_or(f64::NAN),
-            ninety: quantile(&mut delays, 0.9).unwrap_or(f64::NAN),
-        }
-    }
-
-    /// What no test can beat that knows where and when the contact begins, and no errors of calibration.
-    fn bound(&self) -> Option<Delay> {
-        let (moments, length, place, began) = self.exact()?;
-        let delays =
-            bound::Delays::drawn(&moments, length, (place, began), self.spec.rate, DRAWN, self.spec.scenario.seed);
-        let since = |readings: usize| {
-            let moment = moments.get(began.checked_add(readings)?)?;
-            Some(moment.command.time - moments[began].command.time)
-        };
-        let at = |share: f64| {
-            let place = ((share * DRAWN as f64) as usize).min(DRAWN - 1);
-            delays.readings.get(place).and_then(|readings| since(*readings)).unwrap_or(f64::NAN)
-        };
-        Some(Delay { median: at(0.5), ninety: at(0.9) })
-    }
-
-    /// The nominal course of the plan with the tracker's own noise: moments, length, place and first reading of the contact.
-    fn exact(&self) -> Option<(Vec<Moment>, f64, f64, usize)> {
-        let contact = self.plan.contact()?;
-        let settings = Settings::of(&self.plan);
-        let commands: Vec<_> = settings.commands(&self.plan).collect();
-        let floor = noise::FLOOR;
-        let Noise { position, orientation, colour } = settings.watching.declared;
-        let colour = colour.max(self.spec.scenario.calibration.colour);
-        let noise =
-            Noise { position: position.max(floor.position), orientation: orientation.max(floor.orientation), colour };
-        let length = settings.segment.length;
-        let model = Model { length, belief: settings.watching.belief, noise };
-        let moments = Planner::all(&model, &commands, false);
-        let beyond = |command: &Command| contact.side * (command.bend - contact.bend) > 0.0;
-        let began = commands.iter().position(beyond)?.checked_sub(1)?;
-        Some((moments, length, contact.arc_length, began))
-    }
-
-    fn places(&self) -> Vec<Place> {
-        let bounds = self.exact().map(|(moments, length, place, began)| {
-            let times: Vec<f64> =
-                moments[began..].iter().map(|moment| moment.command.time - moments[began].command.time).collect();
-            (bound::place(&moments, length, place, began), times)
-        });
-        let median = self.methods.iter().position(|method| *method == self.spec.detector).and_then(|place| {
-            Some(self.at(place, self.spec.detector.setting(&self.plan.scenario().detection)?).median)
-        });
-        let all =
-            Estimator::ALL.iter().flat_map(|estimator| (0..self.spec.after.len()).map(move |after| (estimator, after)));
-        let place = |(estimator, after): (&Estimator, usize)| {
-            let own = |placed: &&Placed| placed.estimator == *estimator && placed.after == after;
-            let placed: Vec<&Placed> = self.outcomes.values().flat_map(|outcome| &outcome.placed).filter(own).collect();
-            if placed.is_empty() {
-                return None;
-            }
-            let count = placed.len() as f64;
-            let mean = |of: &dyn Fn(&Placed) -> f64| placed.iter().map(|placed| of(placed)).sum::<f64>() / count;
-            let covered = placed.iter().filter(|placed| placed.covers).count() as u64;
-            let late = self.spec.after[after];
-            let bound = bounds.as_ref().zip(median).and_then(|((bounds, times), median)| {
-                let reading = times.iter().position(|time| *time >= median + late - 1e-9)?;
-                bounds.get(reading.checked_sub(1)?).copied()
-            });
-            Some(Place {
-                estimator: estimator.word(),
-                after: late,
-                count: placed.len() as u64,
-                bias: mean(&|placed| placed.error),
-                rms: sqrt(mean(&|placed| placed.error * placed.error)),
-                coverage: (*estimator == Estimator::Marginal).then(|| Share::new(covered, placed.len() as u64)),
-                width: mean(&|placed| placed.width),
-                bound,
-            })
-        };
-        all.filter_map(place).collect()
+        self.making = Some(making);
+        None
     }
 }
 
 impl Job for Compare {
     fn step(&mut self) {
-        let next = (0..self.spec.repeats as u64).find(|repeat| !self.outcomes.contains_key(repeat));
-        if let Some(repeat) = next {
-            let outcome = self.run(repeat);
-            self.add(repeat, outcome);
+        let next = self.missing().next();
+        if let Some(made) = next.and_then(|piece| self.part(piece)) {
+            self.add(made);
         }
     }
 
     fn progress(&self) -> Progress {
-        Progress { done: self.outcomes.len() as u64, of: self.spec.repeats as u64 }
+        let (done, of) = (self.limits.made() as u64, self.limits.rates().len() as u64);
+        Progress { done: done + self.repeats(), of: of + self.spec.repeats as u64 }
     }
 }
 
-/// What a comparison comes to. SI units; NaN where a value is not defined.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
-    /// Runs without, and as many with contact.
-    pub repeats: u64,
-    /// The share of runs without contact that may alarm, where false alarms are equal.
-    pub rate: f64,
-    /// Each detector.
-    pub detectors: Vec<Compared>,
-    /// The delay that no test can beat at that rate, which knows where and when a clamp begins to hold and how the robot is calibrated.
-    pub bound: Option<Delay>,
-    /// Runs without contact whose innovations are white.
-    pub white: Share,
-    /// Places.
-    pub places: Vec<Place>,
-}
-
-/// One detector.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Compared {
-    /// Its key.
-    pub detector: &'static str,
-    /// At the scenario's threshold; none while it is off.
-    pub own: Option<At>,
-    /// At the threshold at which so many runs alarm as may; none where no value counts.
-    pub equal: Option<At>,
-}
-
-/// One detector at one threshold.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct At {
-    /// In the unit of its setting.
-    pub threshold: f64,
-    /// Runs without contact that alarm.
-    pub false_alarms: Share,
-    /// Runs with contact that alarm after it began, and not before.
-    pub found: Share,
-    /// Runs with contact that alarm before it began.
-    pub early: Share,
-    /// Median delay of the contacts found, s.
-    pub median: f64,
-    /// Nine in ten of them are found within this, s.
-    pub ninety: f64,
-}
-
-/// Delays, s.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Delay {
-    /// The median.
-    pub median: f64,
-    /// Nine in ten.
-    pub ninety: f64,
-}
-
-/// Places by one estimator, so long after the alarm.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Place {
-    /// Its key.
-    pub estimator: &'static str,
-    /// Time since the alarm, s.
-    pub after: f64,
-    /// Contacts that were placed.
-    pub count: u64,
-    /// Mean error, m.
-    pub bias: f64,
-    /// Root of the mean square error, m.
-    pub rms: f64,
-    /// 95 % intervals that hold the truth; none for an estimator without.
-    pub coverage: Option<Share>,
-    /// Mean width of the interval, m.
-    pub width: f64,
-    /// Cramér and Rao's bound at the median alarm and so long after it, m, for a clamp; none before any reading.
-    pub bound: Option<f64>,
+/// The scenario that is run: thresholds that change nothing of what a repeat comes to have their defaults, so that moving one costs no
+/// run. Detectors that are switched off still have values.
+fn judged(spec: &Spec) -> Scenario {
+    let mut scenario = spec.scenario.clone();
+    let default = Thresholds::default();
+    let detection = &mut scenario.detection;
+    for &method in Method::ALL {
+        // Places follow from the alarms of their detector; whiteness is tested up to the alarm of a likelihood ratio.
+        let matters = method == spec.detector || matches!(method, Method::Cusum | Method::Glr);
+        if !matters || detection.of(method).value().is_none() {
+            *detection.of_mut(method) = default.of(method);
+        }
+    }
+    (detection.release, detection.hold) = (default.release, default.hold);
+    if spec.detector != Method::Jfd {
+        detection.xi1_factor = default.xi1_factor;
+    }
+    // Places need the alarms of their detector.
+    detection.detectors.set(spec.detector, true);
+    scenario
 }
 
 /// A scenario with these detectors instead of its own.

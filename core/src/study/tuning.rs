@@ -4,14 +4,13 @@
 //! A run is made once and judged by all thresholds in that one pass. Repeat `k` has the seed of
 //! [`repeat_seed`]; what repeats come to is counted in whole numbers. So a study is the same to the bit whoever runs
 //! its pieces, in whichever order. Reading order: `sweep` (what is compared), `levels` (which thresholds), `sight` and `watch`
-//! (first alarms of one run), `batch`, `tally` and `rate` (what they come to), `recommend` (which threshold to take), `remote` (a study that a worker makes).
+//! (first alarms of one run), `batch`, `tally` and `rate` (what they come to), `recommend` (which threshold to take).
 
 pub mod batch;
 pub mod chart;
 pub mod levels;
 pub mod rate;
 pub mod recommend;
-pub mod remote;
 mod sight;
 pub mod sweep;
 pub mod tally;

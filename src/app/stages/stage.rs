@@ -26,6 +26,8 @@ pub enum Stage {
     Map,
     /// How soon and how reliably each threshold and filter detects.
     Tuning,
+    /// The detectors held against each other, and against what cannot be beaten.
+    Detectors,
 }
 
 /// The views of the bar; each has one stage or, the paper, several.
@@ -70,7 +72,7 @@ impl Section {
 
 impl Stage {
     /// All of them, in the order offered.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Robot,
         Self::Figure3,
         Self::Figure4,
@@ -80,11 +82,15 @@ impl Stage {
         Self::Table2,
         Self::Map,
         Self::Tuning,
+        Self::Detectors,
     ];
 
     /// Those of the paper.
     pub const PAPER: [Self; 6] =
         [Self::Figure3, Self::Figure4, Self::Figure6, Self::Figure7, Self::Figure8, Self::Table2];
+
+    /// Those of the tuning.
+    pub const TUNING: [Self; 2] = [Self::Tuning, Self::Detectors];
 
     /// The view that it belongs to.
     #[must_use]
@@ -92,7 +98,7 @@ impl Stage {
         match self {
             Self::Robot => Section::Robot,
             Self::Map => Section::Map,
-            Self::Tuning => Section::Tuning,
+            Self::Tuning | Self::Detectors => Section::Tuning,
             _ => Section::Paper,
         }
     }
@@ -115,7 +121,7 @@ impl Stage {
             Self::Figure6 => Some(Number::Six),
             Self::Figure7 => Some(Number::Seven),
             Self::Figure8 => Some(Number::Eight),
-            Self::Robot | Self::Table2 | Self::Map | Self::Tuning => None,
+            Self::Robot | Self::Table2 | Self::Map | Self::Tuning | Self::Detectors => None,
         }
     }
 
@@ -132,6 +138,7 @@ impl Stage {
             Self::Table2 => "table2",
             Self::Map => "map",
             Self::Tuning => "tuning",
+            Self::Detectors => "detectors",
         }
     }
 
@@ -148,6 +155,7 @@ impl Stage {
             Self::Table2 => "Table II",
             Self::Map => "Map",
             Self::Tuning => "Tuning",
+            Self::Detectors => "Detectors",
         }
     }
 
@@ -159,6 +167,7 @@ impl Stage {
             (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
             (Self::Map, _) => "Which contacts are detectable: the largest thresholds that find them, by place and bend",
             (Self::Tuning, _) => "Choose thresholds and filter: false alarms against delay, from repeated runs",
+            (Self::Detectors, _) => "Which detector is soonest at equal false alarms, and how true its places are",
             _ => "The robot as it bends, and its centrodes in the bending plane",
         }
     }

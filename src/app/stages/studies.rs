@@ -165,8 +165,8 @@ mod tests {
         for stage in Stage::ALL {
             studies.update(stage, &scenario);
             let frames = finish(&mut studies);
-            // Tuning has a study of its own.
-            let none = matches!(stage, Stage::Robot | Stage::Tuning);
+            // Both of the tuning view have studies of their own.
+            let none = matches!(stage, Stage::Robot | Stage::Tuning | Stage::Detectors);
             assert_eq!(studies.found().is_some(), !none, "{stage:?}");
             assert!(none || stage == Stage::Figure3 || frames > 1, "{stage:?}: {frames} frames");
             assert_eq!(studies.progress(), None);

@@ -3,7 +3,7 @@
 use centrode_core::detect::Method;
 use centrode_core::scenario::overrides::whole;
 use centrode_core::scenario::{Override, Place, Scenario, ScenarioError, Threshold, Thresholds};
-use centrode_core::study::tuning::remote::{Answer, Request};
+use centrode_core::study::remote::{Answer, Found, Request, Work};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study};
 use centrode_core::study::{Job, Progress};
@@ -166,13 +166,14 @@ impl Tuner {
         if let Some(helper) = &mut self.helper {
             for answer in helper.take() {
                 match Answer::from_bytes(&answer) {
-                    Ok(answer) if answer.id != self.request => {}
-                    Ok(answer) => {
-                        let mut tallies = answer.tallies.into_iter();
+                    // What answers a request of the past, or of another study, is no longer of use.
+                    Ok(Answer { id, found: Found::Thresholds(tallies) }) if id == self.request => {
+                        let mut tallies = tallies.into_iter();
                         if !tallies.all(|(batch, tally)| study.set(batch as usize, tally)) {
                             failure = Some("its answer belongs to another study".into());
                         }
                     }
+                    Ok(_) => {}
                     Err(error) => failure = Some(format!("its answer cannot be read: {error}")),
                 }
             }
@@ -183,7 +184,8 @@ impl Tuner {
             match &mut self.helper {
                 Some(helper) if !self.asked => {
                     self.request += 1;
-                    let request = Request { id: self.request, spec: study.spec().clone(), batches: study.missing() };
+                    let work = Work::Thresholds { spec: study.spec().clone(), batches: study.missing() };
+                    let request = Request { id: self.request, work };
                     match serde_json::to_string(&request) {
                         Ok(request) => {
                             helper.ask(Some(&request));

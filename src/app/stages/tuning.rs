@@ -7,19 +7,19 @@ mod delays;
 mod lengths;
 mod words;
 
+pub use words::{interval, percent, wished};
+
 use crate::app::charts::notation::job;
 use crate::app::charts::paint::Picture;
 use crate::app::command::Command;
-use crate::app::fonts;
-use crate::app::panels::save;
 use crate::app::saving::Subject;
 use crate::app::stages::Inputs;
+use crate::app::stages::choices::{self, Part};
 use crate::app::stages::tuner::{Cells, Tuner};
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
-use crate::app::widgets::segmented::segmented;
-use crate::app::widgets::text::{paint, rich, width};
+use crate::app::widgets::text::rich;
 use centrode_core::chart::{Chart, Role, Style};
 use centrode_core::scenario::Xi1Rule;
 use centrode_core::study::Job;
@@ -27,7 +27,7 @@ use centrode_core::study::tuning::chart;
 use centrode_core::study::tuning::recommend::{Verdict, Wish, recommend_among};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Study};
-use egui::{Align2, Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
+use egui::{Label, Pos2, Rect, Response, ScrollArea, Ui, pos2, vec2};
 
 /// From this width on the pictures stand two by two.
 const BESIDE: f32 = 700.0;
@@ -40,9 +40,6 @@ const TEXT: f32 = 11.0;
 const FOOT: f32 = 20.0;
 /// A finger holds what is this near, points.
 const REACH: f32 = 32.0;
-/// The shares of false alarms that can be wished for.
-const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"), (0.1, "10 %")];
-const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
 
 /// How the threshold of a method is shown: symbol, unit and size of that unit.
 pub struct Named {
@@ -233,60 +230,15 @@ fn derive(study: &Study, cells: &Cells, version: u64, inputs: &Inputs<'_>) -> De
 /// Rule, wish, repeats, and the button that stops.
 fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>) {
     let tuning = view.tuning;
-    let names: Vec<_> = Rule::ALL.iter().map(|&rule| chart::name(rule)).collect();
-    let parts: [(&str, Vec<&str>, usize, f32); 3] = [
-        ("Alarm by", names, tuning.rule as usize, 280.0),
-        (
-            "False alarms, at most",
-            WISHES.map(|(_, name)| name).to_vec(),
-            WISHES.iter().position(|(wish, _)| *wish == tuning.wish).unwrap_or(WISHES.len()),
-            196.0,
-        ),
-        (
-            "Runs",
-            REPEATS.map(|(_, name)| name).to_vec(),
-            REPEATS.iter().position(|(repeats, _)| *repeats == tuning.repeats).unwrap_or(REPEATS.len()),
-            138.0,
-        ),
-    ];
-    let whole = ui.available_width() - save::BUTTON - 8.0;
-    let (mut row, mut x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
-    let corner = pos2(row.right() + 8.0 + 0.5 * save::BUTTON, row.center().y);
-    save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), Subject::Tuning, out);
-    for (k, (label, options, chosen, wide)) in parts.into_iter().enumerate() {
-        let head = width(ui, label, fonts::regular(12.0)) + 8.0;
-        let wide = if beside { wide } else { (whole - head).min(wide) };
-        if x > 0.0 && x + head + wide > whole {
-            (row, x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
-        }
-        let left = row.left() + x;
-        let at = pos2(left, row.center().y);
-        paint(ui, at, Align2::LEFT_CENTER, label, fonts::regular(12.0), view.theme.dim);
-        let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, 28.0));
-        if let Some(picked) = segmented(ui, place, label, &options, chosen) {
-            out.push(Command::Tune(match k {
-                0 => Tuning { rule: Rule::ALL[picked], ..tuning },
-                1 => Tuning { wish: WISHES[picked].0, ..tuning },
-                _ => Tuning { repeats: REPEATS[picked].0, ..tuning },
-            }));
-        }
-        x += head + wide + 16.0;
-    }
-    if let Some(left) = inputs.tuner.left() {
-        let (label, hint) = match inputs.tuner.is_held() {
-            true => ("Go on", format!("{} of {} runs", left.done, left.of)),
-            false => ("Stop", format!("{} of {} runs", left.done, left.of)),
-        };
-        let wide = 140.0 + width(ui, label, fonts::regular(12.5));
-        if x + wide > whole {
-            (row, x) = (ui.allocate_space(vec2(whole, 28.0)).1, 0.0);
-        }
-        let place = Rect::from_min_size(pos2(row.left() + x, row.top()), vec2(66.0, 28.0));
-        if button(ui, place, label, &view.theme) {
-            out.push(Command::HoldStudy(!inputs.tuner.is_held()));
-        }
-        let at = pos2(place.right() + 8.0, row.center().y);
-        paint(ui, at, Align2::LEFT_CENTER, &hint, fonts::regular(12.0), view.theme.dim);
+    let names = Rule::ALL.iter().map(|&rule| chart::name(rule)).collect();
+    let parts = [Part::one("Alarm by", names, tuning.rule as usize, 280.0), Part::wish(tuning), Part::repeats(tuning)];
+    let study = inputs.tuner.left().map(|left| (format!("{} of {} runs", left.done, left.of), inputs.tuner.is_held()));
+    if let Some((part, picked)) = choices::row(ui, (beside, Subject::Tuning), &parts, study, out) {
+        out.push(Command::Tune(match part {
+            0 => Tuning { rule: Rule::ALL[picked], ..tuning },
+            1 => Tuning { wish: choices::WISHES[picked].0, ..tuning },
+            _ => Tuning { repeats: choices::REPEATS[picked].0, ..tuning },
+        }));
     }
 }
 
@@ -318,13 +270,13 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
 
 /// Says what is not as one would expect: that a log is not what is studied, or that the page makes the runs because its helper
 /// could not.
-fn trouble(ui: &mut Ui, inputs: &Inputs<'_>, theme: &Theme) {
+pub fn trouble(ui: &mut Ui, inputs: &Inputs<'_>, theme: &Theme) {
     if inputs.log {
         let said = "This studies simulations of what is set, not the log that is shown: delays need to know when contact began, \
                     and a log does not say. To see what a threshold makes of the log, drag its line in the plots.";
         ui.add(Label::new(job(said, 12.5, theme.ink)).wrap());
     }
-    if let Some(why) = inputs.tuner.trouble() {
+    if let Some(why) = inputs.tuner.trouble().or(inputs.comparer.trouble()) {
         let said = format!("The worker failed ({why}). The page makes the runs itself, between its frames.");
         ui.add(Label::new(job(&said, 12.0, theme.error)).wrap());
     }

@@ -8,9 +8,14 @@ use crate::app::widgets::text::paint;
 
 /// Shows a button; returns whether it was clicked.
 pub fn button(ui: &mut Ui, rect: Rect, label: &str, theme: &Theme) -> bool {
-    let id = ui.make_persistent_id(("button", label));
+    named(ui, rect, (label, label), theme)
+}
+
+/// The same with another name to assistive technology than the word on it, where several have the same word.
+pub fn named(ui: &mut Ui, rect: Rect, (label, name): (&str, &str), theme: &Theme) -> bool {
+    let id = ui.make_persistent_id(("button", name));
     let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
     let warm = if response.hovered() { 0.08 } else { 0.0 };
     let edge = if response.has_focus() { theme.accent } else { theme.faint };
     let fill = theme.raised.lerp_to_gamma(theme.ink, warm);

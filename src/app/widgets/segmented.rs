@@ -32,6 +32,17 @@ pub fn several(
     holds: impl Fn(usize) -> bool,
 ) -> Option<usize> {
     let options: Vec<_> = options.iter().map(|text| Segment { text, name: text, hint: "" }).collect();
+    several_named(ui, rect, label, (&options, most), holds)
+}
+
+/// The same, with what each option is to assistive technology.
+pub fn several_named(
+    ui: &mut Ui,
+    rect: Rect,
+    label: &str,
+    (options, most): (&[Segment<'_>], usize),
+    holds: impl Fn(usize) -> bool,
+) -> Option<usize> {
     let rows = options.chunks(most.max(1));
     let height = rect.height() / rows.len().max(1) as f32;
     let mut clicked = None;

@@ -47,7 +47,8 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
     (
         "Tuning",
         "The tuning view repeats the experiment with new noise, with contact and without, and judges every run by every threshold. The curves show how many false alarms an earlier detection costs; \
-         their bands show how uncertain that is after so few runs. A dot marks what is set, a ring what is recommended. Click or drag on a picture to take its threshold; the plots below follow.",
+         their bands show how uncertain that is after so few runs. A dot marks what is set, a ring what is recommended. Click or drag on a picture to take its threshold; the plots below follow. \
+         Detectors holds all of them against each other, and against what no test and no estimate can beat.",
     ),
     (
         "How to try things",

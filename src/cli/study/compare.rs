@@ -2,14 +2,21 @@
 
 use super::StudyArgs;
 use super::work;
+use crate::cli::draw::{self, Format};
 use crate::cli::estimating::method;
-use crate::cli::output::{Failure, json};
+use crate::cli::output::{Failure, NewFile, json};
 use centrode_core::detect::Method;
-use centrode_core::scenario::Scenario;
-use centrode_core::scenario::keys;
 use centrode_core::scenario::keys::Quantity;
-use centrode_core::study::Job;
+use centrode_core::scenario::link::Page;
+use centrode_core::scenario::text::number;
+use centrode_core::scenario::{Detectors, Scenario};
+use centrode_core::study::compare::chart::chart;
+use centrode_core::study::compare::export::csv;
 use centrode_core::study::compare::{At, Compare, Comparison, Place, Spec, with};
+use centrode_core::study::export::signed;
+use centrode_core::study::tuning::Point;
+use centrode_core::study::tuning::rate::Share;
+use centrode_core::study::tuning::recommend::Verdict;
 use serde::Serialize;
 use std::io::Write;
 
@@ -25,33 +32,46 @@ struct Report<'a> {
 
 /// Compares the detectors that were given.
 pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut impl Write) -> Result<(), Failure> {
-    if !args.sweeps.is_empty() || args.csv.is_some() || args.svg.is_some() || args.rule.is_some() {
-        let line = "--detectors compares detectors; --sweep, --method, --csv and --svg belong to a study of thresholds";
+    if !args.sweeps.is_empty() || args.rule.is_some() {
+        let line = "--detectors compares detectors; --sweep and --method belong to a study of thresholds";
         return Err(Failure::Input(line.into()));
     }
     let methods: Vec<Method> =
         args.detectors.iter().map(|name| method("--detectors", name)).collect::<Result<_, _>>()?;
-    let scenario = with(scenario, &methods);
     let spec = Spec {
-        scenario: scenario.clone(),
+        scenario: with(scenario, &methods),
         repeats,
         rate: args.rate,
         detector: args.estimating.detector()?,
         after: args.estimating.after()?,
     };
     let compare = Compare::new(spec).map_err(|error| Failure::Input(error.to_string()))?;
+    let format = args.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
+    // A file that cannot be written is said before the work, not after it.
+    let [table, drawing] = [&args.csv, &args.svg].map(|path| path.as_deref().map(NewFile::create));
+    let (table, drawing) = (table.transpose()?, drawing.transpose()?);
     let (compare, partial) = work::compare(compare);
     let comparison = compare.comparison();
+    if let Some(mut file) = table {
+        file.write_all(csv(&comparison, partial).as_bytes()).map_err(|error| file.blame(&error))?;
+        file.finish()?;
+    }
+    if let (Some(mut file), Some(format)) = (drawing, format) {
+        let compared = Detectors::of(&methods);
+        let (false_alarms, repeats) = (args.rate, repeats as u64);
+        let page = Page { false_alarms, repeats, compare: compared, ..Page::of("detectors") };
+        draw::write(&mut file, &signed(chart(&compare, &comparison), scenario, page), format)?;
+        file.finish()?;
+    }
     if args.json {
-        json(out, &Report { scenario: &scenario, partial, comparison: &comparison })?;
+        json(out, &Report { scenario: &compare.spec().scenario, partial, comparison: &comparison })?;
     } else {
         text(out, &comparison)?;
     }
     out.flush()?;
     if partial {
-        let progress = compare.progress();
-        let line =
-            format!("interrupted after {} of {} repeats; the results written are partial", progress.done, progress.of);
+        let (done, of) = (comparison.repeats, compare.spec().repeats);
+        let line = format!("interrupted after {done} of {of} repeats; the results written are partial");
         return Err(Failure::Interrupted(line));
     }
     Ok(())
@@ -63,7 +83,7 @@ fn shown(value: f64, digits: usize) -> String {
 }
 
 fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
-    let Comparison { repeats, rate, detectors, bound, white, places } = comparison;
+    let Comparison { repeats, rate, detectors, bound, white, places, .. } = comparison;
     let runs = if *repeats == 1 { "run" } else { "runs" };
     writeln!(
         out,
@@ -107,7 +127,51 @@ fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
         )?;
         places.iter().try_for_each(|of| place(out, of))?;
     }
-    Ok(())
+    advice(out, comparison)
+}
+
+/// Which threshold of each detector to take, and of which detector.
+fn advice(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
+    let most = format!("at most {} false alarms", share(comparison.rate));
+    writeln!(out, "\nadvice: the soonest threshold shown to give {most}, by the upper end of its 95 % interval")?;
+    for compared in &comparison.detectors {
+        let told = match &compared.advised {
+            Verdict::Take { point, .. } => taken(compared.method(), point),
+            Verdict::TooFewRuns { needed } => {
+                format!("none can be shown to: that takes at least --repeats {needed}, even when no run gives one")
+            }
+            Verdict::NoneQuiet { lowest } => format!("none: the best may give up to {:.1} %", lowest * 100.0),
+            Verdict::NoneFinds { best } => {
+                format!("none that detects half of the contacts; the best detects {:.1} %", best * 100.0)
+            }
+            Verdict::NoContact => "none: the robot never reaches the contact".into(),
+        };
+        writeln!(out, "{:<16}{told}", compared.detector)?;
+    }
+    match comparison.advice() {
+        Some((method, point)) => writeln!(out, "{:<16}{} at {}", "soonest", method.key(), threshold(method, point)),
+        None => Ok(()),
+    }
+}
+
+fn threshold(method: Method, point: &Point) -> String {
+    let quantity = method.quantity();
+    // Three digits in SI are three in the unit shown, but for roundings.
+    let shown = (quantity.shown(point.threshold) * 1e6).round() / 1e6;
+    format!("{} {}", number(shown), quantity.unit()).trim_end().to_owned()
+}
+
+fn taken(method: Method, point: &Point) -> String {
+    let seen = point.detection.map_or([f64::NAN; 2], |seen| [seen.median, seen.ninety]);
+    let Share { count, of, low, high, .. } = point.false_alarms.rate;
+    format!(
+        "{}: {} s after contact (median; 90 % within {} s); {count} of {of} ({:.1} to {:.1} %) runs without contact give a false alarm",
+        threshold(method, point),
+        shown(seen[0], 3),
+        shown(seen[1], 3),
+        low * 100.0,
+        high * 100.0
+    )
 }
 
 fn share(share: f64) -> String {
@@ -117,11 +181,8 @@ fn share(share: f64) -> String {
 /// One detector at one threshold.
 fn detected(out: &mut impl Write, name: &str, at: Option<&At>) -> std::io::Result<()> {
     let Some(at) = at else { return writeln!(out, "{name:<16}{:>10}", "off") };
-    let quantity = Method::ALL
-        .iter()
-        .find(|method| method.key() == name)
-        .and_then(|method| keys::find(method.threshold_key()))
-        .map_or(Quantity::Count, |key| key.quantity);
+    let quantity =
+        Method::ALL.iter().find(|method| method.key() == name).map_or(Quantity::Count, |method| method.quantity());
     writeln!(
         out,
         "{name:<16}{:>10} {:<5}{:>9}{:>9}{:>9}{:>9} s{:>9} s",

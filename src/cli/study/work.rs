@@ -29,9 +29,9 @@ pub fn work(study: Study) -> (Study, bool) {
 /// The same of a comparison.
 pub fn compare(compare: Compare) -> (Compare, bool) {
     let counted = compare.clone();
-    let make = |repeat| (repeat, compare.run(repeat));
-    let compare = repeat(counted, compare.progress().of, make, |counted, (repeat, outcome)| {
-        counted.add(repeat, outcome);
+    let make = |piece| compare.make(compare.piece(piece));
+    let compare = repeat(counted, compare.progress().of, make, |counted, made| {
+        made.map(|made| counted.add(made));
     });
     let partial = !compare.progress().is_complete();
     (compare, partial)

@@ -17,6 +17,8 @@ const APART: [f64; 2] = [5.6, 2.9];
 const IN_LINE: [f64; 2] = [4.4, 2.9];
 /// The same on an axis of shares, whose marks are short.
 const SHARES_APART: [f64; 2] = [2.3, 1.5];
+/// The same on a logarithmic axis.
+const LOG_APART: [f64; 2] = [3.2, 1.6];
 /// Data of one scale for both axes are at most this many times as wide, against their height, as what they show, and so many.
 const SPARE: f64 = 1.3;
 const SQUARE: f64 = 1.6;
@@ -74,6 +76,7 @@ pub(super) fn frame(panel: &Panel, data: Rect) -> Frame {
     let along = |axis: &Axis, [from, to]: [f64; 2]| if axis.falling { [to, from] } else { [from, to] };
     let scale = |axis: &Axis, range, ends| match axis.steps {
         Steps::Shares => Scale::shares(SHARES, ends),
+        Steps::Log => Scale::log(range, ends),
         _ => Scale::new(range, ends),
     };
     Frame {
@@ -91,7 +94,8 @@ fn marks(axis: &Axis, scale: &Scale, apart: f64) -> Vec<Tick> {
     if axis.steps == Steps::Shares {
         return ticks(scale, apart, axis.steps);
     }
-    let shown = Scale::new(scale.range().map(|end| end * axis.scale), [0.0, scale.length()]);
+    let (shown, length) = (scale.range().map(|end| end * axis.scale), [0.0, scale.length()]);
+    let shown = if axis.steps == Steps::Log { Scale::log(shown, length) } else { Scale::new(shown, length) };
     let marks = ticks(&shown, apart, axis.steps);
     marks.into_iter().map(|tick| Tick { value: tick.value / axis.scale, ..tick }).collect()
 }
@@ -111,6 +115,7 @@ impl Pen<'_> {
     fn marks_of(&self, axis: &Axis, scale: &Scale, which: usize) -> Vec<Tick> {
         let apart = match axis.steps {
             Steps::Shares => SHARES_APART,
+            Steps::Log => LOG_APART,
             _ if self.page.sides.is_some() => IN_LINE,
             _ => APART,
         };

@@ -1,6 +1,7 @@
 //! The same as a command line.
 
 use super::Link;
+use crate::scenario::Method;
 use crate::scenario::keys::Value;
 use crate::scenario::text::number;
 
@@ -32,7 +33,7 @@ impl Link {
         let mut words: Vec<String> = match (figure, view) {
             (Some(number), _) => vec!["figure".into(), number.into()],
             (None, "table2" | "map") => vec![view.into()],
-            (None, "tuning") => vec!["study".into()],
+            (None, "tuning" | "detectors") => vec!["study".into()],
             _ => vec!["run".into()],
         };
         words.extend(self.scenario_words());
@@ -41,6 +42,13 @@ impl Link {
             words.extend(["--repeats".into(), page.repeats.to_string()]);
             words.extend(["--method".into(), page.rule.into()]);
             words.extend(["--false-alarms".into(), number(page.false_alarms)]);
+        }
+        if view == "detectors" {
+            let page = &self.page;
+            let detectors: Vec<&str> = page.compare.iter().map(Method::key).collect();
+            words.extend(["--repeats".into(), page.repeats.to_string()]);
+            words.extend(["--detectors".into(), detectors.join(",")]);
+            words.extend(["--rate".into(), number(page.false_alarms)]);
         }
         if figure.is_some() {
             words.extend(["--out".into(), format!("{view}.svg")]);

@@ -1,15 +1,15 @@
 //! What a link says of the page beside the scenario: a short table of what one must know to see the same. Theme, folded
 //! groups and the like are the reader's own and stay out.
 
-use crate::scenario::Scenario;
 use crate::scenario::keys::allowed::Limit;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::plan::MAX_TIME;
 use crate::scenario::refusal::{Refused, ScenarioError};
+use crate::scenario::{Detectors, Method, Scenario};
 
 /// What can stand on the page's stage, by the name that a link has for it.
 pub const VIEWS: &[&str] =
-    &["robot", "figure-3", "figure-4", "figure-6", "figure-7", "figure-8", "table2", "map", "tuning"];
+    &["robot", "figure-3", "figure-4", "figure-6", "figure-7", "figure-8", "table2", "map", "tuning", "detectors"];
 /// How alarms are raised in the tuning view.
 pub const RULES: &[&str] = &["fcd", "jfd", "or", "and"];
 /// Slowest and fastest playback, seconds of the experiment per second.
@@ -35,11 +35,22 @@ pub struct Page {
     pub false_alarms: f64,
     /// Repeats of each run in the tuning view.
     pub repeats: u64,
+    /// The detectors that are compared in the tuning view.
+    pub compare: Detectors,
 }
 
 impl Default for Page {
     fn default() -> Self {
-        Self { view: VIEWS[0], time: None, speed: 1.0, looping: true, rule: RULES[0], false_alarms: 0.05, repeats: 100 }
+        Self {
+            view: VIEWS[0],
+            time: None,
+            speed: 1.0,
+            looping: true,
+            rule: RULES[0],
+            false_alarms: 0.05,
+            repeats: 100,
+            compare: Detectors::of(Method::ALL),
+        }
     }
 }
 
@@ -120,6 +131,19 @@ pub const PAGE_KEYS: &[PageKey] = &[
             }
         },
     },
+    PageKey {
+        name: "compare",
+        quantity: Quantity::Word,
+        allowed: Allowed::Some(Method::KEYS),
+        sentence: "The detectors that are compared in the tuning view.",
+        get: |page| Some(Value::Words(page.compare.iter().map(Method::key).collect())),
+        set: |page, value| {
+            if let Value::Words(words) = value {
+                let chosen = Method::ALL.iter().copied().filter(|method| words.contains(&method.key()));
+                page.compare = Detectors::of(&chosen.collect::<Vec<_>>());
+            }
+        },
+    },
 ];
 
 fn word(value: &Value, set: impl FnOnce(&'static str)) {
@@ -191,6 +215,11 @@ impl PageKey {
             Allowed::Words(words) => words.iter().find(|word| **word == text).map(|word| Value::Word(word)),
             Allowed::Whole(least, most) => {
                 text.parse().ok().filter(|whole| (least..=most).contains(whole)).map(Value::Whole)
+            }
+            Allowed::Some(words) => {
+                let known = |part: &str| words.iter().find(|word| **word == part).copied();
+                let chosen: Option<Vec<_>> = text.split(',').filter(|part| !part.is_empty()).map(known).collect();
+                chosen.map(Value::Words)
             }
             range => text.parse().ok().filter(|number| range.has(*number)).map(Value::Number),
         };

@@ -111,7 +111,8 @@ pub fn csv(table: &Table2) -> String {
     text
 }
 
-/// All tables as a plain `tabular` that needs no package, units in the head. `made` says what made it, in comments above.
+/// All tables as a plain `tabular` that needs no package, units in the head; where `cusum` judges, with the rows in which the calibration
+/// filter detects and locates, and a column for how often its 95 % interval holds the true place. `made` says what made it, in comments above.
 ///
 /// ```
 /// use centrode_core::scenario::Scenario;
@@ -135,19 +136,23 @@ pub fn latex(table: &Table2, made: &str) -> String {
     }
     let fixed = ["", "Disk", "$s_c$ (mm)", "Contact (s)", "Found", "False alarms"];
     let heads: Vec<&str> = fixed.into_iter().chain(QUANTITIES.iter().map(|quantity| quantity.head)).collect();
+    let last = if table.ours.is_some() { &["Bias (mm)", "95 \\% hold"][..] } else { &["Bias (mm)"] };
     // Writing to a string does not fail.
-    let _ = writeln!(text, "\\begin{{tabular}}{{l{}}}\n\\hline", "r".repeat(heads.len()));
-    let _ = writeln!(text, "{} & Bias (mm) \\\\\n\\hline", heads.join(" & "));
+    let _ = writeln!(text, "\\begin{{tabular}}{{l{}}}\n\\hline", "r".repeat(heads.len() + last.len() - 1));
+    let _ = writeln!(text, "{} & {} \\\\\n\\hline", heads.join(" & "), last.join(" & "));
     let simulated = |kind: ContactKind| format!("Simulated by Centrode, {}", kind.name());
-    let sets = [
-        ("Paper".into(), &table.paper),
-        (simulated(table.kind), &table.simulated),
-        (simulated(table.other_kind), &table.other),
+    let plain = |disks: &[Disk; 3]| disks.map(|disk| (disk, f64::NAN));
+    let mut sets = vec![
+        ("Paper".into(), plain(&table.paper)),
+        (simulated(table.kind), plain(&table.simulated)),
+        (simulated(table.other_kind), plain(&table.other)),
     ];
-    for (name, disks) in sets {
-        for (k, disk) in disks.iter().enumerate() {
+    let by_cusum = format!("{}, by CUSUM", simulated(table.kind));
+    sets.extend(table.ours.map(|ours| (by_cusum, ours.map(|ours| (ours.disk, ours.covered)))));
+    for (name, disks) in &sets {
+        for (k, (disk, covered)) in disks.iter().enumerate() {
             let fixed = [
-                escaped(if k == 0 { &name } else { "" }),
+                escaped(if k == 0 { name } else { "" }),
                 disk.disk.to_string(),
                 math(disk.arc_length * 1e3, 2),
                 math(disk.contact_time, 3),
@@ -155,7 +160,8 @@ pub fn latex(table: &Table2, made: &str) -> String {
                 disk.false_alarms.map_or("--".into(), |count| count.to_string()),
             ];
             let values = QUANTITIES.iter().map(|quantity| spread(quantity, disk));
-            let cells: Vec<String> = fixed.into_iter().chain(values).chain([math(disk.bias * 1e3, 2)]).collect();
+            let last = [math(disk.bias * 1e3, 2), share(*covered)].into_iter().take(last.len());
+            let cells: Vec<String> = fixed.into_iter().chain(values).chain(last).collect();
             let _ = writeln!(text, "{} \\\\", cells.join(" & "));
         }
         text.push_str("\\hline\n");
@@ -167,6 +173,11 @@ pub fn latex(table: &Table2, made: &str) -> String {
 /// A number in LaTeX, which sets its minus; a dash where it is not defined.
 fn math(value: f64, digits: usize) -> String {
     if value.is_finite() { format!("${value:.digits$}$") } else { "--".into() }
+}
+
+/// A share in LaTeX, which sets its percent.
+fn share(value: f64) -> String {
+    if value.is_finite() { format!("${:.0}\\,\\%$", value * 100.0) } else { "--".into() }
 }
 
 fn spread(quantity: &Quantity, disk: &Disk) -> String {
@@ -218,7 +229,14 @@ mod tests {
         let text = latex(&table(2), "one\ntwo");
         assert!(text.starts_with("% one\n% two\n% Mean"), "{text}");
         let rows: Vec<&str> = text.lines().filter(|line| line.ends_with("\\\\")).collect();
-        assert_eq!(rows.len(), 1 + 9);
+        assert_eq!(rows.len(), 1 + 12);
+        assert!(text.contains("clamp, by CUSUM") && rows[0].ends_with("& 95 \\% hold \\\\"), "{text}");
+        // Without the filter there is neither.
+        let plain = latex(&Table2 { ours: None, ..table(2) }, "one");
+        assert!(
+            !plain.contains("CUSUM") && !plain.contains("hold") && plain.matches("\\\\\n").count() == 1 + 9,
+            "{plain}"
+        );
         assert!(rows.iter().all(|row| row.matches('&').count() == rows[0].matches('&').count()), "{text}");
         let columns = text.lines().find_map(|line| line.strip_prefix("\\begin{tabular}{")).expect("a tabular");
         assert_eq!(columns.trim_end_matches('}').len(), rows[0].matches('&').count() + 1);

@@ -84,13 +84,13 @@ fn found_band(point: &Point) -> Option<[[f64; 2]; 2]> {
 }
 
 /// The same for delays, with more alarms for less delay; an open end reaches to the top of the axis.
-fn delay_band(point: &Point, top: f64) -> Option<[[f64; 2]; 2]> {
+pub(crate) fn delay_band(point: &Point, top: f64) -> Option<[[f64; 2]; 2]> {
     let (seen, alarms) = (point.detection?, point.false_alarms.rate);
     let open = |value: f64| if value.is_nan() { top } else { value };
     delay(point).map(|_| [[alarms.low, open(seen.median_low)], [alarms.high, open(seen.median_high)]])
 }
 
-fn shares(name: &'static str) -> Axis {
+pub(crate) fn shares(name: &'static str) -> Axis {
     Axis { steps: Steps::Shares, range: Some([0.0, 1.0]), ..Axis::new(name, "1", "%", 100.0) }
 }
 

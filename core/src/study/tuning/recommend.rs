@@ -61,39 +61,70 @@ pub fn recommend(study: &Study, wish: &Wish) -> Verdict {
 /// When there is no such cell.
 #[must_use]
 pub fn recommend_among(study: &Study, cells: impl IntoIterator<Item = usize>, wish: &Wish) -> Verdict {
-    let (mut runs, mut lowest, mut finds) = (0, f64::INFINITY, 0.0f64);
-    let mut best: Option<(usize, usize, Point)> = None;
-    let mut contact = false;
+    let mut search = Search::new(wish.false_alarm_rate);
     for cell in cells {
         let (free, held) = study.runs(cell, wish.rule);
-        runs = runs.max(free);
         // Whether the robot reaches the beam, the first run will say.
-        contact = contact || held.is_some_and(|held| held == 0 || study.contact_time(cell).is_some());
+        search.enter(free, held.is_some_and(|held| held == 0 || study.contact_time(cell).is_some()));
         for (level, point) in study.curve(cell, wish.rule).into_iter().enumerate() {
-            let upper = point.false_alarms.rate.high;
-            lowest = lowest.min(upper);
-            let Some(detection) = point.detection.filter(|_| upper <= wish.false_alarm_rate) else { continue };
-            finds = finds.max(detection.detected.rate);
-            if detection.median.is_nan() {
-                continue;
-            }
-            if best.as_ref().is_none_or(|(_, _, best)| sooner(&point, best)) {
-                best = Some((cell, level, point));
-            }
+            search.look(cell, level, point);
         }
     }
-    match best {
-        Some((cell, level, point)) => Verdict::Take { cell, level, point: Box::new(point) },
-        None if !contact => Verdict::NoContact,
-        None if lowest <= wish.false_alarm_rate => Verdict::NoneFinds { best: finds },
-        None if runs < runs_to_show(wish.false_alarm_rate) => {
-            Verdict::TooFewRuns { needed: runs_to_show(wish.false_alarm_rate) }
+    search.verdict()
+}
+
+/// The search for the soonest threshold among those quiet enough, whatever they are thresholds of.
+#[derive(Debug, Clone)]
+pub struct Search {
+    rate: f64,
+    runs: u64,
+    lowest: f64,
+    finds: f64,
+    contact: bool,
+    best: Option<(usize, usize, Point)>,
+}
+
+impl Search {
+    /// With the most runs without contact that may alarm, as a share above 0 and below 1.
+    #[must_use]
+    pub fn new(rate: f64) -> Self {
+        Self { rate, runs: 0, lowest: f64::INFINITY, finds: 0.0, contact: false, best: None }
+    }
+
+    /// Enters a cell of so many runs without contact, in which there is or may be a contact to find.
+    pub fn enter(&mut self, runs: u64, contact: bool) {
+        self.runs = self.runs.max(runs);
+        self.contact |= contact;
+    }
+
+    /// Looks at what one level of a cell comes to.
+    pub fn look(&mut self, cell: usize, level: usize, point: Point) {
+        let upper = point.false_alarms.rate.high;
+        self.lowest = self.lowest.min(upper);
+        let Some(detection) = point.detection.filter(|_| upper <= self.rate) else { return };
+        self.finds = self.finds.max(detection.detected.rate);
+        if !detection.median.is_nan() && self.best.as_ref().is_none_or(|(_, _, best)| sooner(&point, best)) {
+            self.best = Some((cell, level, point));
         }
-        None => Verdict::NoneQuiet { lowest },
+    }
+
+    /// The answer.
+    #[must_use]
+    pub fn verdict(self) -> Verdict {
+        let needed = runs_to_show(self.rate);
+        match self.best {
+            Some((cell, level, point)) => Verdict::Take { cell, level, point: Box::new(point) },
+            None if !self.contact => Verdict::NoContact,
+            None if self.lowest <= self.rate => Verdict::NoneFinds { best: self.finds },
+            None if self.runs < needed => Verdict::TooFewRuns { needed },
+            None => Verdict::NoneQuiet { lowest: self.lowest },
+        }
     }
 }
 
-fn sooner(one: &Point, other: &Point) -> bool {
+/// Whether one finds contact sooner than another: by the median delay, then the 90 %, then the false alarms.
+#[must_use]
+pub fn sooner(one: &Point, other: &Point) -> bool {
     let order = |point: &Point| {
         let detection = point.detection?;
         // Not defined is later than anything.

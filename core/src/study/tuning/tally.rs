@@ -79,7 +79,8 @@ impl Tally {
 static NONE: Count = Count { early: 0, early_samples: 0, late: 0, found: Vec::new() };
 
 impl Count {
-    fn add(&mut self, first: u32, contact: Option<u32>, clock: &Clock) {
+    /// Counts the first alarm of a run in ([`NEVER`] without one), and when its contact began, in samples.
+    pub fn add(&mut self, first: u32, contact: Option<u32>, clock: &Clock) {
         if first == NEVER {
             return;
         }

@@ -2,7 +2,7 @@
 
 use super::*;
 use centrode_core::scenario::preset::find;
-use centrode_core::study::tuning::remote::Remote;
+use centrode_core::study::remote::Remote;
 use std::cell::RefCell;
 use std::rc::Rc;
 

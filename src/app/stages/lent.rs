@@ -1,0 +1,33 @@
+//! A helper that several studies ask in turn: what one has asked ends when another asks.
+
+use crate::app::stages::tuner::Helper;
+use std::cell::RefCell;
+use std::rc::Rc;
+
+/// A share in a helper.
+#[derive(Debug, Clone)]
+pub struct Lent(Rc<RefCell<Box<dyn Helper>>>);
+
+impl Lent {
+    /// Two shares of one helper. Who has nothing to ask must not take the answers of the other.
+    #[must_use]
+    pub fn two(helper: Option<Box<dyn Helper>>) -> [Option<Box<dyn Helper>>; 2] {
+        let lent = helper.map(|helper| Self(Rc::new(RefCell::new(helper))));
+        let share = || lent.clone().map(|lent| Box::new(lent) as Box<dyn Helper>);
+        [share(), share()]
+    }
+}
+
+impl Helper for Lent {
+    fn ask(&mut self, request: Option<&str>) {
+        self.0.borrow_mut().ask(request);
+    }
+
+    fn take(&mut self) -> Vec<Vec<u8>> {
+        self.0.borrow_mut().take()
+    }
+
+    fn failure(&self) -> Option<String> {
+        self.0.borrow().failure()
+    }
+}
