@@ -1,6 +1,7 @@
 //! What a run or a log comes to, printed.
 
 use super::output::{Failure, json};
+use centrode_core::detect::calibration::Noise;
 use centrode_core::detect::calibration::noise::Whiteness;
 use centrode_core::detect::estimates::Estimated;
 use centrode_core::detect::force::Force;
@@ -28,7 +29,6 @@ pub fn too_many(TooMany { time }: TooMany) -> Failure {
     ))
 }
 
-/// One estimate of a place.
 /// Where a contact is; `raised` is its alarm (s), where it is not the first.
 fn placed(out: &mut impl Write, estimate: &Estimated, raised: Option<f64>) -> std::io::Result<()> {
     let Estimated { after, estimator, location, contact_time, kinds, .. } = estimate;
@@ -106,12 +106,19 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             None => writeln!(out)?,
         }
     }
-    if let Some(test) = report.whiteness.filter(Whiteness::fails) {
+    if let Some(Noise { position, orientation, colour }) = report.noise {
+        let (position, orientation) = (mm(position), degrees(orientation));
         writeln!(
             out,
-            "warning     innovations are not white (p = {:.0e}): thresholds of cusum and glr, and intervals of places, hold for \
-             white ones; see prior.colour, prior.drift and prior.position_noise",
-            test.p_value
+            "filter      takes the tracker's noise for {position:.3} mm and {orientation:.4}°, ρ = {colour:.2}"
+        )?;
+    }
+    if let Some(test) = report.whiteness.filter(Whiteness::fails) {
+        let p = if test.p_value < 1e-99 { "< 1e-99".into() } else { format!("= {:.0e}", test.p_value) };
+        writeln!(
+            out,
+            "warning     innovations are not white (p {p}): thresholds of cusum and glr, and intervals of places, hold for \
+             white ones; see prior.colour, prior.drift and prior.position_noise"
         )?;
     }
     for (name, peak, unit) in [

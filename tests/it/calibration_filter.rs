@@ -123,7 +123,7 @@ fn places_are_the_prototypes() {
             let k = reading(&theirs["at_s"]);
             let history = History { model: &model, moments: &moments, readings: &readings[..=k] };
             let ask = |kinds, parts| {
-                let question = Question { from: 0, alarm: reading(&part["alarm_s"]), kinds, parts };
+                let question = Question { first: (reading(&part["alarm_s"])).saturating_sub(100), kinds, parts };
                 estimate(&history, &question).expect("it moved")
             };
             // The prototype tries beginnings at readings alone.

@@ -62,25 +62,43 @@ fn contacts_are_found_within_hundredths_of_a_second_by_a_robot_that_is_not_calib
 
 #[test]
 fn a_place_has_an_interval_that_is_true() {
-    // Limits as root mean squares (mm) at 0.1, 0.25 and 0.5 s, with what 60 repeats leave open: a tenth.
-    let clamp = "estimation.plants=[\"clamp\"]";
+    // Limits as root mean squares (mm) at 0.1, 0.25 and 0.5 s.
+    let (clamp, both) = ("estimation.plants=[\"clamp\"]", "estimation.plants=[\"clamp\", \"plane\"]");
     for (preset, kind, plants, limits) in [
         ("disk-1", "clamp", clamp, [1.0, 0.45, 0.20]),
         ("bench", "clamp", clamp, [1.25, 0.45, 0.20]),
         ("disk-3", "clamp", clamp, [1.35, 0.45, 0.20]),
-        ("disk-1", "plane", "estimation.plants=[\"clamp\", \"plane\"]", [f64::INFINITY, f64::INFINITY, 1.1]),
-        ("disk-3", "plane", "estimation.plants=[\"clamp\", \"plane\"]", [f64::INFINITY, f64::INFINITY, 0.25]),
+        ("disk-1", "plane", both, [f64::INFINITY, f64::INFINITY, 1.1]),
+        ("bench", "plane", both, [f64::INFINITY, f64::INFINITY, 0.7]),
+        ("disk-3", "plane", both, [f64::INFINITY, f64::INFINITY, 0.25]),
     ] {
         let kind_set = format!("contact.kind={kind}");
-        let comparison = compared(preset, &[LO[0], LO[1], &kind_set, plants], 60, true);
+        let comparison = compared(preset, &[LO[0], LO[1], &kind_set, plants], 150, true);
         assert_eq!(comparison.places.len(), 3, "{preset} {kind}");
         for (place, limit) in comparison.places.iter().zip(limits) {
-            assert!(place.rms * 1e3 <= limit * 1.1, "{preset} {kind}: {place:?}");
+            // What so many repeats leave open of a root mean square: two of its standard errors.
+            let room = 1.0 + 2.0 / (2.0 * place.count as f64).sqrt();
+            assert!(place.rms * 1e3 <= limit * room, "{preset} {kind}: {place:?}");
             let coverage = place.coverage.expect("an interval");
-            assert!(coverage.high >= 0.95 && place.count > 50, "{preset} {kind}: {place:?}");
+            let least = if kind == "plane" { 0.90 } else { 0.92 };
+            assert!(coverage.high >= least && coverage.rate >= least - 0.03, "{preset} {kind}: {place:?}");
+            assert!(coverage.low <= 0.98 && place.count > 140, "{preset} {kind}: {place:?}");
             let bound = place.bound.expect("after the contact");
-            assert!(kind == "plane" || place.rms > 0.7 * bound, "{preset}: {place:?}");
+            assert!(kind == "plane" || place.rms * room > bound, "{preset}: {place:?}");
         }
+    }
+}
+
+#[test]
+fn a_place_between_those_that_are_tried_at_first_is_nearly_as_good() {
+    // A tracker so good that its posterior is narrower than the first grid, and what is of second order in the calibration shows.
+    let tracker = ["tracker.position_noise=1e-5", "tracker.orientation_noise=3e-5"];
+    let at = "contact.arc_length=0.01505";
+    let comparison = compared("bench", &[tracker[0], tracker[1], "estimation.plants=[\"clamp\"]", at], 60, true);
+    for place in &comparison.places {
+        let (bound, coverage) = (place.bound.expect("after"), place.coverage.expect("an interval"));
+        assert!(place.rms > 0.7 * bound && place.rms < 1.6 * bound, "{place:?}");
+        assert!(coverage.rate > 0.7, "{place:?}");
     }
 }
 

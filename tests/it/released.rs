@@ -9,7 +9,7 @@ use centrode_core::plant::Happening;
 use centrode_core::record::log::{Log, Options, Setup, assemble};
 use centrode_core::run::simulate;
 use centrode_core::scenario::preset::find;
-use centrode_core::scenario::{Detectors, Estimated, Estimator, Mounting, Scenario};
+use centrode_core::scenario::{ContactKind, Detectors, Estimated, Estimator, Mounting, Scenario, Start};
 use centrode_core::study::report::Conclusions;
 use std::fmt::Write;
 
@@ -105,16 +105,28 @@ fn a_release_is_noticed_and_the_next_contact_is_an_event_with_its_own_place() {
 
 #[test]
 fn a_contact_that_holds_is_not_taken_for_one_that_has_been_left() {
-    for name in ["bench", "disk-1", "touch-2", "miscalibrated"] {
-        for seed in 1..=10 {
-            let mut scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
-            scenario.seed = seed;
-            scenario.detection.detectors = Detectors::of(&[Method::Cusum]);
-            let run = simulate(&scenario).expect("possible");
-            let holds = run.plant_events().iter().all(|event| event.what == Happening::Met);
-            let watched = run.judged.watched.as_ref().expect("watched");
-            let left = watched.heard.iter().find_map(|heard| heard.left);
-            assert!(!holds || left.is_none(), "{name} {seed}: {left:?}");
+    let noises = [None, Some((5e-5, 0.01_f64)), Some((2e-4, 0.04)), Some((5e-4, 0.1))];
+    for (name, kind) in [("disk-1", ContactKind::Clamp), ("disk-1", ContactKind::Plane), ("bench", ContactKind::Plane)]
+    {
+        for (noise, finish) in [(0, 8.0), (1, 8.0), (2, 8.0), (3, 8.0), (2, 33.0), (3, 33.0)] {
+            for seed in 1..=8 {
+                let mut scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
+                (scenario.seed, scenario.contact.kind) = (seed, kind);
+                scenario.calibration = find("miscalibrated").and_then(|x| x.scenario()).expect("preset").calibration;
+                (scenario.loop_rate, scenario.filter.length) = (100.0, 50);
+                scenario.contact.start = Start::Bend(0.6);
+                (scenario.motion.finish, scenario.motion.end) = (finish, finish + 2.0);
+                if let Some((position, orientation)) = noises[noise] {
+                    scenario.tracker.position_noise = position;
+                    scenario.tracker.orientation_noise = orientation.to_radians();
+                }
+                scenario.detection.detectors = Detectors::of(&[Method::Cusum]);
+                let run = simulate(&scenario).expect("possible");
+                assert!(run.plant_events().iter().all(|event| event.what == Happening::Met), "it holds to the end");
+                let watched = run.judged.watched.as_ref().expect("watched");
+                let left = watched.heard.iter().find_map(|heard| heard.left);
+                assert!(left.is_none(), "{name} {kind:?} {noise} {finish} {seed}: {left:?}");
+            }
         }
     }
 }

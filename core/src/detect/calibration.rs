@@ -64,7 +64,7 @@ impl Default for Belief {
 }
 
 /// Noise of the tracker's readings.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
 pub struct Noise {
     /// Standard deviation on each coordinate, m.
     pub position: f64,

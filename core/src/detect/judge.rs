@@ -267,13 +267,29 @@ impl Judged {
         estimates(&known, event, after)
     }
 
-    /// Whether the calibration filter's innovations are white until the first of its detectors alarms, less the readings that a contact
-    /// may have been in; none where it did not watch, or too briefly.
+    /// Whether the calibration filter's innovations are white, up to where a contact can have begun; none where it did not watch, or too
+    /// briefly.
     #[must_use]
     pub fn whiteness(&self) -> Option<Whiteness> {
-        let watched = self.watched.as_ref()?;
-        let own = |event: &&Event| matches!(event.detector, Method::Cusum | Method::Glr);
-        watched.whiteness_before(self.events.iter().find(own).map(|event| event.raised))
+        self.watched.as_ref()?.whiteness()
+    }
+
+    /// The events of a detector that tell of a contact each: one that is raised while a contact of before may still hold tells of that,
+    /// and is left out. Of a detector without the calibration filter nobody knows; each counts.
+    #[must_use]
+    pub fn contacts(&self, detector: Method) -> Vec<&Event> {
+        let mut kept: Vec<&Event> = Vec::new();
+        for event in self.events.iter().filter(|event| event.detector == detector) {
+            let clear = |before: &&Event| {
+                let watched = self.watched.as_ref()?;
+                let [from, to] = [before.raised, event.raised].map(|time| watched.at(time));
+                Some(watched.clear_by(to?)? > from?)
+            };
+            if kept.last().is_none_or(|before| clear(before) != Some(false)) {
+                kept.push(event);
+            }
+        }
+        kept
     }
 
     /// The first event of a detector.

@@ -1,5 +1,6 @@
 //! What a run or a log comes to: crossings, events, the detection, and the largest values judged.
 
+use crate::detect::calibration::Noise;
 use crate::detect::calibration::noise::Whiteness;
 use crate::detect::estimates::Estimated;
 use crate::detect::force::Force;
@@ -48,13 +49,15 @@ pub struct Report<L = ()> {
     pub detection: Option<Found>,
     /// Where the contact is that the first alarm of one detector told of, at several times after it.
     pub estimates: Vec<Estimated>,
-    /// The same of the detector's later alarms, of which there are none before a contact has been left; left out without any.
+    /// The same of the detector's later alarms that tell of another contact; left out without any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub next_estimates: Vec<Next>,
     /// How hard it presses there, at the last of these times, if it only touches; null where that is not likely, or there are no load
     /// cells.
     pub force: Option<Pressed>,
-    /// Whether the calibration filter's innovations are white before that; null where it did not watch, or too briefly.
+    /// The tracker's noise as the calibration filter takes it, known or measured at rest; null where it did not watch.
+    pub noise: Option<Noise>,
+    /// Whether the calibration filter's innovations are white before a contact can have begun; null where it did not watch, or too briefly.
     pub whiteness: Option<Whiteness>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
     pub peak: Peaks,
@@ -74,7 +77,7 @@ impl<L> Report<L> {
         conclusions: Conclusions,
         log: Option<L>,
     ) -> Self {
-        let Conclusions { estimates, next_estimates, force, whiteness } = conclusions;
+        let Conclusions { estimates, next_estimates, force, noise, whiteness } = conclusions;
         let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
         let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
@@ -94,6 +97,7 @@ impl<L> Report<L> {
             estimates,
             next_estimates,
             force,
+            noise,
             whiteness,
             peak,
             log,
@@ -150,6 +154,8 @@ pub struct Conclusions {
     pub next_estimates: Vec<Next>,
     /// [`Report::force`].
     pub force: Option<Pressed>,
+    /// [`Report::noise`].
+    pub noise: Option<Noise>,
     /// [`Report::whiteness`].
     pub whiteness: Option<Whiteness>,
 }
@@ -159,9 +165,15 @@ impl Conclusions {
     /// detector is switched off, it judges here alone.
     #[must_use]
     pub fn of(judged: &Judged, recording: &Recording, detector: Method, after: &[f64]) -> Self {
-        if !judged.settings.thresholds.detectors.has(detector) {
+        let places = judged.settings.placing.estimators.has(Estimator::Marginal) && recording.commanded;
+        let detectors = judged.settings.thresholds.detectors;
+        if !detectors.has(detector) || places && !judged.settings.watches() {
             let mut settings = judged.settings.clone();
             settings.thresholds.detectors.set(detector, true);
+            if places && !settings.watches() {
+                // Places are the calibration filter's.
+                settings.thresholds.detectors.set(Method::Cusum, true);
+            }
             return Self::of(&judge(recording, &settings), recording, detector, after);
         }
         let estimates = judged.estimates(recording, detector, after);
@@ -172,10 +184,11 @@ impl Conclusions {
             Pressed { force, truth }
         };
         let force = last.and_then(|last| Force::of(judged, recording, last)).map(pressed);
-        let later = judged.events.iter().filter(|event| event.detector == detector).skip(1).take(PLACED);
+        let noise = judged.watched.as_ref().map(|watched| watched.model.noise);
+        let later = judged.contacts(detector).into_iter().skip(1).take(PLACED);
         let next =
             |event: &Event| Next { raised: event.raised, estimates: judged.estimates_of(recording, event, after) };
-        Self { estimates, next_estimates: later.map(next).collect(), force, whiteness: judged.whiteness() }
+        Self { estimates, next_estimates: later.map(next).collect(), force, noise, whiteness: judged.whiteness() }
     }
 }
 

@@ -89,9 +89,9 @@ impl Placed {
     pub fn renew(&mut self, run: &Run, heard: u64) {
         let settings = &run.judged.settings;
         self.detector = DETECTORS.into_iter().find(|&method| settings.thresholds.judges(method));
-        let events = run.events().iter().filter(|event| Some(event.detector) == self.detector);
+        let events = self.detector.map_or_else(Vec::new, |detector| run.judged.contacts(detector));
         let alarm = |event: &Event| Alarm { detector: event.detector, raised: event.raised, cleared: event.cleared };
-        let alarms: Vec<Alarm> = events.take(ALARMS).map(alarm).collect();
+        let alarms: Vec<Alarm> = events.into_iter().take(ALARMS).map(alarm).collect();
         let key = Key { heard, alarms, placing: settings.placing, end: run.sample(run.len() - 1).time };
         if self.key.as_ref() == Some(&key) {
             return;

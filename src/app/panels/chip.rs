@@ -78,11 +78,16 @@ impl Chip {
             Phase::FalseAlarm => ui.painter().add(egui::Shape::closed_line(diamond(), Stroke::new(1.8, color))),
         };
         text::paint(ui, rect.left_center() + vec2(28.0, 0.0), Align2::LEFT_CENTER, phase.words(), font, ink);
-        if let Some(said) = said {
-            text::paint(ui, rect.left_center() + vec2(40.0 + word, 0.0), Align2::LEFT_CENTER, &said, small, ink);
+        if let Some(said) = &said {
+            text::paint(ui, rect.left_center() + vec2(40.0 + word, 0.0), Align2::LEFT_CENTER, said, small, ink);
         }
         let response = ui.interact(rect, Id::unique("state chip"), Sense::hover());
         response.widget_info(|| WidgetInfo::labeled(Role::Status, true, format!("State: {}", phase.words())));
-        ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));
+        ui.ctx().accesskit_node_builder(response.id, |node| {
+            node.set_live(egui::accesskit::Live::Polite);
+            if let Some(said) = said {
+                node.set_description(said);
+            }
+        });
     }
 }

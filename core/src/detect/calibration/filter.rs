@@ -25,6 +25,9 @@ pub struct Stage {
     pub drifts: bool,
 }
 
+/// Readings that are so many times further apart than others do not follow one another.
+const GAP: f64 = 1.5;
+
 /// Makes stages, one reading after the other.
 #[derive(Debug, Clone)]
 pub struct Designer {
@@ -32,13 +35,15 @@ pub struct Designer {
     noise: Noise,
     covariance: Square,
     last: Option<(f64, Columns)>,
+    /// The shortest time from one reading to the next so far, s.
+    interval: f64,
 }
 
 impl Designer {
     /// Before the first reading.
     #[must_use]
     pub fn new(belief: &Belief, noise: Noise) -> Self {
-        Self { belief: *belief, noise, covariance: Square::identity(), last: None }
+        Self { belief: *belief, noise, covariance: Square::identity(), last: None, interval: f64::INFINITY }
     }
 
     /// Before a reading that follows no other, where so much is known of the errors.
@@ -50,15 +55,17 @@ impl Designer {
     /// The stage of the next reading, taken at `time` (s).
     #[must_use]
     pub fn next(&mut self, time: f64, linear: &Linear) -> Stage {
-        let Self { belief, noise, covariance, last } = self;
+        let Self { belief, noise, covariance, last, interval } = self;
         let mut scaled = linear.by_error;
         for (mut column, deviation) in scaled.column_iter_mut().zip(belief.deviations) {
             column *= deviation;
         }
-        // Noise of first order becomes white in what is new of each residual.
-        let (colour, white) = match last {
-            Some(_) => (noise.colour, 1.0 - noise.colour * noise.colour),
-            None => (0.0, 1.0),
+        let since = last.as_ref().map(|(before, _)| time - before);
+        *interval = since.unwrap_or(f64::INFINITY).min(*interval);
+        // Noise of first order becomes white in what is new of each residual; after a gap all of it is new.
+        let (colour, white) = match since {
+            Some(since) if since < GAP * *interval => (noise.colour, 1.0 - noise.colour * noise.colour),
+            _ => (0.0, 1.0),
         };
         let mut columns = scaled;
         if let Some((_, before)) = last
@@ -66,7 +73,7 @@ impl Designer {
         {
             columns -= *before * colour;
         }
-        let kept = last.as_ref().map_or(1.0, |(before, _)| kept(belief, time - before));
+        let kept = since.map_or(1.0, |since| kept(belief, since));
         if kept < 1.0 {
             for i in DRIFT..STATES {
                 covariance.row_mut(i).scale_mut(kept);

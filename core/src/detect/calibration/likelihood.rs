@@ -10,11 +10,15 @@ use super::signature::{PLACES, Shapes, weights};
 /// Spacing of the posterior's grid, as a share of L: 0.1 mm on the paper's segment.
 pub const GRID: f64 = 1.0 / 300.0;
 
+/// So often a step is halved in the search for the largest ratio.
+const HALVED: u32 = 8;
+
 /// Places along the backbone, and the weights of each.
 #[derive(Debug, Clone)]
 pub struct Grid {
     places: Vec<f64>,
     weights: Vec<[f64; PLACES]>,
+    spacing: f64,
 }
 
 impl Grid {
@@ -30,11 +34,27 @@ impl Grid {
         Self::every(10)
     }
 
+    /// `count` of them in the middle of as many equal parts from a place to another (in units of L).
+    #[must_use]
+    pub fn between(ends: [f64; 2], count: u32) -> Self {
+        let spacing = (ends[1] - ends[0]) / f64::from(count);
+        Self::of((0..count).map(|i| ends[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
+    }
+
     fn every(step: u32) -> Self {
         let places = (step..).step_by(step as usize).map(|i| f64::from(i) * GRID);
-        let places: Vec<f64> = places.take_while(|place| *place < 1.0 - 0.5 * GRID).collect();
+        Self::of(places.take_while(|place| *place < 1.0 - 0.5 * GRID).collect(), f64::from(step) * GRID)
+    }
+
+    fn of(places: Vec<f64>, spacing: f64) -> Self {
         let weights = places.iter().copied().map(weights).collect();
-        Self { places, weights }
+        Self { places, weights, spacing }
+    }
+
+    /// From one place to the next, in units of L.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.spacing
     }
 
     /// The places, in units of L.
@@ -100,10 +120,22 @@ impl Row {
         grid.weights.iter().map(|weights| self.at(weights))
     }
 
-    /// The largest of them.
+    /// The largest ratio: the largest on a grid, and then beside it, for it may be narrower than the grid is dense.
     #[must_use]
     pub fn most(&self, grid: &Grid) -> f64 {
-        self.along(grid).fold(f64::NEG_INFINITY, f64::max)
+        let on = self.along(grid).enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((at, mut most)) = on else { return f64::NEG_INFINITY };
+        let (mut place, mut step) = (grid.places[at], grid.spacing);
+        for _ in 0..HALVED {
+            step *= 0.5;
+            for beside in [place - step, place + step] {
+                let here = self.at(&weights(beside));
+                if here > most && (0.0..1.0).contains(&beside) {
+                    (place, most) = (beside, here);
+                }
+            }
+        }
+        most
     }
 }
 

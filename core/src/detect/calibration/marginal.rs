@@ -6,7 +6,7 @@
 
 use super::course::{Model, Moment, residual};
 use super::filter::{Designer, Filter, Stage};
-use super::likelihood::{self, GRID, Grid, Row};
+use super::likelihood::{self, Grid, Row};
 use super::linear::{self, Linear};
 use super::signature::Shapes;
 use super::{Command, STATES, Six, States};
@@ -14,8 +14,8 @@ use crate::model::Pose;
 use crate::scenario::Kind;
 use libm::{exp, sqrt};
 
-/// Beginnings are tried up to so many readings before the alarm.
-const BEFORE: usize = 100;
+/// Beginnings are tried at least from so many readings before the alarm on.
+pub const BEFORE: usize = 100;
 /// The likeliest beginning is first looked for at every so many of them.
 const STRIDE: usize = 4;
 /// Beginnings whose log likelihood is this much below the best are left out.
@@ -25,7 +25,7 @@ const CLEAR: usize = 2;
 /// Steps of Gauss and Newton; each is about the square of the one before, so that what follows one below [`SETTLED`] prior deviations
 /// counts for nothing.
 const STEPS: usize = 4;
-const SETTLED: f64 = 1e-2;
+const SETTLED: f64 = 1e-3;
 
 /// What has been read so far.
 #[derive(Debug, Clone, Copy)]
@@ -71,21 +71,12 @@ pub struct Estimate {
 /// What is asked of the readings.
 #[derive(Debug, Clone, Copy)]
 pub struct Question<'a> {
-    /// The first reading at which the contact can have begun.
-    pub from: usize,
-    /// The reading at which the alarm was raised.
-    pub alarm: usize,
+    /// The first reading that is tried as the beginning.
+    pub first: usize,
     /// The kinds of contact that are thought possible, each as likely as the others beforehand.
     pub kinds: &'a [Kind],
     /// Beginnings that are tried between one reading and the next.
     pub parts: u32,
-}
-
-impl Question<'_> {
-    /// The first reading that is tried as the beginning.
-    fn first(&self) -> usize {
-        self.alarm.saturating_sub(BEFORE).max(self.from)
-    }
 }
 
 /// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved.
@@ -119,7 +110,7 @@ fn beginning(history: &History, heard: &[Six], question: &Question) -> Option<us
         let side = moments[began].command.rate.signum();
         Row::new(&shapes, stages, heard, &bends, (began, 0.0), side).most(&grid)
     };
-    let moving: Vec<usize> = (question.first()..last).filter(|&began| moments[began].command.rate != 0.0).collect();
+    let moving: Vec<usize> = (question.first..last).filter(|&began| moments[began].command.rate != 0.0).collect();
     let best = |tried: &mut dyn Iterator<Item = usize>| {
         tried.map(|at| (at, most(moving[at]))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
     };
@@ -221,7 +212,7 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let errors = linear::errors(&calibrated.states, &model.belief.deviations);
     let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
-    let first = question.first();
+    let first = question.first;
     let moving: Vec<usize> = (first..last).filter(|&k| moments[k].command.rate != 0.0).collect();
     let side = moments[began].command.rate.signum();
     let all = kinds.iter().map(|&kind| {
@@ -270,43 +261,87 @@ fn rows(row: impl Fn((usize, f64)) -> Row, moving: &[usize], began: usize, parts
     (divided.collect(), parts)
 }
 
-/// Adds the grid up.
-fn weigh(all: &[Tried], length: f64, commands: &[Command], calibration: [[f64; STATES]; 2]) -> Option<Estimate> {
-    let grid = Grid::fine();
-    let places = grid.places();
-    let values: Vec<Vec<Vec<f64>>> =
-        all.iter().map(|tried| tried.rows.iter().map(|row| row.along(&grid).collect()).collect()).collect();
-    let best = values.iter().flatten().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
-    if !best.is_finite() {
-        return None;
-    }
-    let mut density = vec![0.0; places.len()];
-    let (mut began, mut kinds) = (0.0, Vec::new());
-    for (tried, values) in all.iter().zip(&values) {
-        let mut weight = 0.0;
-        for (row, values) in tried.rows.iter().zip(values) {
-            let (whole, part) = (row.began as usize, row.began.fract());
-            let after = commands.get(whole + 1).map_or(commands[whole].time, |after| after.time);
-            let at = commands[whole].time + part * (after - commands[whole].time);
-            for (value, density) in values.iter().zip(&mut density) {
-                let here = exp(value - best) / f64::from(tried.parts);
-                *density += here;
-                weight += here;
-                began += here * at;
-            }
+/// So often the grid is made denser, at most.
+const DENSER: usize = 4;
+/// A posterior is drawn at no fewer places than these.
+const FEWEST: u32 = 60;
+/// Densities below this share of the largest count for nothing.
+const FAINT: f64 = 1e-5;
+
+/// What the rows add up to at the places of a grid.
+struct Sum {
+    grid: Grid,
+    /// Densities, in any unit, at each place.
+    density: Vec<f64>,
+    /// Sum of all, and of the instants of beginning.
+    total: f64,
+    began: f64,
+    kinds: Vec<(Kind, f64)>,
+    /// The largest log likelihood ratio.
+    best: f64,
+}
+
+impl Sum {
+    fn of(all: &[Tried], commands: &[Command], grid: Grid) -> Option<Self> {
+        let along =
+            |tried: &Tried| -> Vec<Vec<f64>> { tried.rows.iter().map(|row| row.along(&grid).collect()).collect() };
+        let values: Vec<Vec<Vec<f64>>> = all.iter().map(along).collect();
+        let best = values.iter().flatten().flatten().copied().fold(f64::NEG_INFINITY, f64::max);
+        if !best.is_finite() {
+            return None;
         }
-        kinds.push((tried.kind, weight));
+        let mut density = vec![0.0; grid.places().len()];
+        let (mut began, mut kinds) = (0.0, Vec::new());
+        for (tried, values) in all.iter().zip(&values) {
+            let mut weight = 0.0;
+            for (row, values) in tried.rows.iter().zip(values) {
+                let (whole, part) = (row.began as usize, row.began.fract());
+                let after = commands.get(whole + 1).map_or(commands[whole].time, |after| after.time);
+                let at = commands[whole].time + part * (after - commands[whole].time);
+                for (value, density) in values.iter().zip(&mut density) {
+                    let here = exp(value - best) / f64::from(tried.parts);
+                    *density += here;
+                    weight += here;
+                    began += here * at;
+                }
+            }
+            kinds.push((tried.kind, weight));
+        }
+        let total: f64 = density.iter().sum();
+        Some(Self { grid, density, total, began, kinds, best })
     }
-    let total: f64 = density.iter().sum();
+
+    /// A denser grid where the density is so narrow that this one is too coarse for it.
+    fn denser(&self) -> Option<Grid> {
+        let most = self.density.iter().copied().fold(0.0, f64::max);
+        let counts = |density: &f64| *density > FAINT * most;
+        let [first, last] = [self.density.iter().position(counts)?, self.density.iter().rposition(counts)?];
+        let (places, spacing) = (self.grid.places(), self.grid.spacing());
+        let ends = [places[first] - spacing, places[last] + spacing];
+        (last - first < FEWEST as usize).then(|| Grid::between([ends[0].max(0.0), ends[1].min(1.0)], 2 * FEWEST))
+    }
+}
+
+/// Adds the rows up, as densely as their sum is narrow.
+fn weigh(all: &[Tried], length: f64, commands: &[Command], calibration: [[f64; STATES]; 2]) -> Option<Estimate> {
+    let mut sum = Sum::of(all, commands, Grid::fine())?;
+    for _ in 0..DENSER {
+        let Some(grid) = sum.denser() else { break };
+        sum = Sum::of(all, commands, grid)?;
+    }
+    let Sum { grid, density, total, began, mut kinds, best } = sum;
     kinds.iter_mut().for_each(|(_, weight)| *weight /= total);
-    let place = Place::of(places, &density, length);
-    let posterior = places.iter().zip(&density).map(|(place, here)| [place * length, here / (total * GRID * length)]);
+    let (places, spacing) = (grid.places(), grid.spacing());
+    let place = Place::of(&grid, &density, length);
+    let posterior =
+        places.iter().zip(&density).map(|(place, here)| [place * length, here / (total * spacing * length)]);
     Some(Estimate { place, began: began / total, kinds, calibration, posterior: posterior.collect(), evidence: best })
 }
 
 impl Place {
-    /// Of a density (in any unit) along the grid's places (in units of L) of a segment `length` m long.
-    fn of(places: &[f64], density: &[f64], length: f64) -> Self {
+    /// Of a density (in any unit) along a grid of a segment `length` m long.
+    fn of(grid: &Grid, density: &[f64], length: f64) -> Self {
+        let (places, spacing) = (grid.places(), grid.spacing());
         let total: f64 = density.iter().sum();
         let mean = places.iter().zip(density).map(|(place, here)| place * here).sum::<f64>() / total;
         let mode = density.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(i, _)| i);
@@ -314,7 +349,7 @@ impl Place {
             let mut sum = 0.0;
             for (place, here) in places.iter().zip(density) {
                 if sum + here >= share * total {
-                    return place + ((share * total - sum) / here - 0.5) * GRID;
+                    return place + ((share * total - sum) / here - 0.5) * spacing;
                 }
                 sum += here;
             }

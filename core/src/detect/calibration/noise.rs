@@ -17,12 +17,27 @@ const MOST: f64 = 0.99;
 /// More are not looked at.
 const ENOUGH: usize = 10_000;
 
-/// How many readings were taken before the robot first moved, or enough of them.
+/// Commands that stay within this of the first, rad, may be those of an encoder at rest.
+const JITTER: f64 = 5e-4;
+/// They are, where their changes add up to so many times what they come to.
+const TO_AND_FRO: f64 = 3.0;
+
+/// How many readings were taken before the robot first moved, or enough of them. Where commands never stand still, as those of an
+/// encoder, it is at rest while they stay near the first.
 #[must_use]
 pub fn still(commands: &[Command]) -> usize {
-    let moved = |pair: &[Command]| pair[0].bend != pair[1].bend || pair[1].rate != 0.0;
     let first = &commands[..commands.len().min(ENOUGH + 1)];
-    first.windows(2).position(moved).map_or(commands.len().min(ENOUGH), |last| last + 1)
+    let moved = |pair: &[Command]| pair[0].bend != pair[1].bend || pair[1].rate != 0.0;
+    let exactly = first.windows(2).position(moved).map(|last| last + 1);
+    let until = exactly.unwrap_or(first.len()).min(ENOUGH);
+    if until >= STILL || until == first.len() {
+        return until;
+    }
+    let near = first.iter().take_while(|command| (command.bend - first[0].bend).abs() <= JITTER).count();
+    // What starts slowly goes one way, what is read at rest to and fro.
+    let gone: f64 = first[..near].windows(2).map(|pair| (pair[1].bend - pair[0].bend).abs()).sum();
+    let net = (first[near - 1].bend - first[0].bend).abs();
+    if gone > TO_AND_FRO * net { near.min(ENOUGH) } else { until }
 }
 
 /// Noise of readings that were taken while the robot stood still; `None` where there are fewer than [`STILL`].
@@ -193,6 +208,25 @@ mod tests {
         let exact = vec![planar(0.0, 0.03, 0.0); 100];
         assert_eq!(measured(0.03, &Belief::default(), &commands, &exact), Some(FLOOR));
         assert_eq!(measured(0.03, &Belief::default(), &commands, &exact[..STILL - 1]), None);
+    }
+
+    #[test]
+    fn an_encoder_at_rest_stands_still_and_a_slow_start_does_not() {
+        let mut normal = Normal::new(3, Source::Tracker);
+        let mut commands = |jitter: f64, start: u32| -> Vec<Command> {
+            let bend = |k: u32| 1e-5 * f64::from(k.saturating_sub(start)).powi(2);
+            let command = |k: u32| Command {
+                time: 0.01 * f64::from(k),
+                bend: bend(k) + jitter * normal.draw(),
+                rate: 0.0,
+                delta: 0.0,
+            };
+            (0..300).map(command).collect()
+        };
+        assert_eq!(super::still(&commands(0.0, 100)), 101);
+        assert!((95..115).contains(&super::still(&commands(1e-4, 100))));
+        assert!(super::still(&commands(0.0, 0)) < 3);
+        assert_eq!(super::still(&[]), 0);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Notices that a contact has been left, and takes the filter back to what it knew before it.
 //!
-//! A contact is learned as if it were an error of the calibration. So what was known before it is kept, and each reading is compared with it:
-//! once the readings are again what a free robot would give, the contact is over, and what was learned meanwhile is forgotten.
+//! A contact is learned as if it were an error of the calibration. So what was known before it is kept, and each reading is compared with it
+//! once the robot has bent back to where the contact began, for a beam holds what is bent beyond it: if the readings are then again what a
+//! free robot would give, the contact is over, and what was learned meanwhile is forgotten.
 
 use super::course::{Model, Moment};
 use super::filter::{Designer, Filter, Square};
@@ -11,6 +12,8 @@ use std::collections::VecDeque;
 
 /// A cumulative sum as large as this tells of a contact without a doubt.
 const CERTAIN: f64 = 25.0;
+/// So far beyond the bend at which a contact seems to have begun, rad, it may have begun in truth; beside the freedom of the bend.
+const MARGIN: f64 = 0.02;
 /// Readings over which differences from the free robot are averaged.
 const READINGS: usize = 10;
 /// So many times what it was before the contact, a difference stands out, …
@@ -24,6 +27,8 @@ struct Known {
     states: States,
     covariance: Square,
     reading: usize,
+    /// The bend, rad.
+    bend: f64,
 }
 
 /// What a filter goes on with after a contact.
@@ -46,6 +51,8 @@ pub struct Vigil {
     calm: (f64, u32),
     recent: VecDeque<f64>,
     stood_out: bool,
+    /// To which side the robot has bent since the contact began: +1 where the bend grew.
+    side: f64,
 }
 
 impl Vigil {
@@ -61,15 +68,20 @@ impl Vigil {
         self.readings += 1;
         if cusum < CERTAIN {
             self.recent.clear();
-            self.stood_out = false;
+            (self.stood_out, self.side) = (false, 0.0);
             self.calm.0 += innovation.norm_squared();
             self.calm.1 += 1;
             if cusum == 0.0 {
-                self.known = Some(Known { states: filter.states, covariance: moment.covariance, reading });
+                let (states, covariance, bend) = (filter.states, moment.covariance, moment.command.bend);
+                self.known = Some(Known { states, covariance, reading, bend });
             }
             return None;
         }
         let known = self.known.as_ref()?;
+        let beyond = moment.command.bend - known.bend;
+        if self.side == 0.0 {
+            self.side = beyond.signum();
+        }
         // At rest nothing is left.
         if moment.command.rate == 0.0 {
             return None;
@@ -84,7 +96,8 @@ impl Vigil {
         let level = (self.calm.0 / f64::from(self.calm.1.max(1))).max(6.0);
         let mean = self.recent.iter().sum::<f64>() / READINGS as f64;
         self.stood_out |= mean > OUT * level;
-        let back = self.stood_out && self.recent.len() == READINGS && mean < BACK * level;
+        let returned = self.side * beyond < MARGIN + model.belief.free_bend;
+        let back = returned && self.stood_out && self.recent.len() == READINGS && mean < BACK * level;
         if !back {
             return None;
         }

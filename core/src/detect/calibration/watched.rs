@@ -1,13 +1,15 @@
 //! Readings as the calibration filter has heard them: what estimates and pictures are made from.
 
 use super::course::{Heard, Model, Planner};
-use super::marginal::{Estimate, History, Question, estimate, innovations};
-use super::monitor::Readings;
+use super::marginal::{BEFORE, Estimate, History, Question, estimate, innovations};
+use super::monitor::{KEPT, Readings};
 use super::noise::Whiteness;
 use crate::scenario::Kind;
 
-/// A contact may have begun so long before its alarm, s.
-const BEFORE_ALARM: f64 = 0.5;
+/// A cumulative sum above this tells of a contact, or of innovations that are not white.
+const CONTACT: f64 = 8.0;
+/// Readings before the last at which the sum was zero, at which a contact may have begun nevertheless.
+const EARLIER: usize = 25;
 
 /// Readings, and what came of each.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,9 +23,13 @@ pub struct Watched {
 }
 
 impl Watched {
-    /// The last reading that had arrived at `time` (s); none before the first.
+    /// The last reading that had arrived at `time` (s); none before the first, and after the last that was kept.
     #[must_use]
     pub fn at(&self, time: f64) -> Option<usize> {
+        // What came after the last that was kept is not known.
+        if self.heard.len() == KEPT && self.readings.arrived.last().is_some_and(|last| *last < time) {
+            return None;
+        }
         self.readings.arrived.partition_point(|arrived| *arrived <= time).checked_sub(1)
     }
 
@@ -38,23 +44,32 @@ impl Watched {
             free.extend(next..first);
             (next, from) = (last + 1, free.len());
         }
+        // Long before the alarm of a slow detector, the sum knows.
+        let clear = self.clear_by(alarm)?.max(next);
+        let begin = free.len() + (clear - next);
         let alarm = free.len() + alarm.checked_sub(next)?;
+        let margin = EARLIER + (alarm - begin) / 4;
+        let first = alarm.saturating_sub(BEFORE).min(begin.saturating_sub(margin)).max(from);
         free.extend(next..=until);
         let pick = |k: &usize| Some((*self.readings.commands.get(*k)?, *self.readings.poses.get(*k)?));
         let (commands, readings): (Vec<_>, Vec<_>) =
             free.iter().map(pick).collect::<Option<Vec<_>>>()?.into_iter().unzip();
         let moments = Planner::all(&self.model, &commands, false);
         let history = History { model: &self.model, moments: &moments, readings: &readings };
-        estimate(&history, &Question { from, alarm, kinds, parts })
+        estimate(&history, &Question { first, kinds, parts })
     }
 
-    /// Whether innovations are white, up to half a second before an alarm at a time (s), or all of them. `None` of too few.
+    /// The last reading at or before one at which the cumulative sum was zero: as it has it, no contact that holds there had begun by then.
     #[must_use]
-    pub fn whiteness_before(&self, alarm: Option<f64>) -> Option<Whiteness> {
-        let until = match alarm {
-            Some(alarm) => self.at(alarm - BEFORE_ALARM).map_or(0, |last| last + 1),
-            None => self.heard.len(),
-        };
+    pub fn clear_by(&self, reading: usize) -> Option<usize> {
+        self.heard.get(..=reading)?.iter().rposition(|heard| heard.cusum == 0.0)
+    }
+
+    /// Whether innovations are white, up to where a contact can have begun, whatever the thresholds. `None` of too few.
+    #[must_use]
+    pub fn whiteness(&self) -> Option<Whiteness> {
+        let told = self.heard.iter().position(|heard| heard.cusum > CONTACT);
+        let until = told.map_or(self.heard.len(), |told| self.clear_by(told).map_or(0, |clear| clear + 1));
         let (commands, readings) = (self.readings.commands.get(..until)?, self.readings.poses.get(..until)?);
         let moments = Planner::all(&self.model, commands, false);
         Whiteness::of(&innovations(&History { model: &self.model, moments: &moments, readings }))

@@ -23,7 +23,7 @@ impl Default for Estimation {
             kind: EstimationKind::default(),
             estimators: Choice::of(&[Estimator::Marginal]),
             plants: Choice::of(Kind::ALL),
-            beginnings: 4,
+            beginnings: 16,
         }
     }
 }

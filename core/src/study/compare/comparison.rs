@@ -28,7 +28,7 @@ pub struct Comparison {
     pub detectors: Vec<Compared>,
     /// The detector whose advised threshold detects soonest; none where no detector has one.
     pub soonest: Option<&'static str>,
-    /// The delay that no test can beat at that rate, which knows where and when a clamp begins to hold and how the robot is calibrated.
+    /// The delay that no test can beat at that rate, which knows where and when a clamp begins to hold, and of the calibration what is known beforehand.
     pub bound: Option<Delay>,
     /// The same at other rates, rising.
     pub bounds: Vec<Bound>,
