@@ -2,9 +2,11 @@
 
 mod replay;
 mod simulation;
+mod unfinished;
 
 pub use replay::Replay;
 pub use simulation::Simulation;
+pub use unfinished::Unfinished;
 
 use crate::detect::filter::FilteredMotion;
 use crate::detect::{Crossing, Detection, Event, Evidence, Judged, Judgement, Method, Settings, judge};
@@ -154,9 +156,7 @@ impl Run {
     /// Runs a plan.
     #[must_use]
     pub fn new(plan: Plan) -> Self {
-        let recording = Recording::simulated(&plan);
-        let judged = judge(&recording, &Settings::of(&plan));
-        Self { plant_events: recording.plant_events(&plan), recording, judged, plan }
+        Unfinished::new(plan).finish()
     }
 
     /// Brings the run up to date with a plan, and makes anew no more than that asks for: a threshold neither filters nor records

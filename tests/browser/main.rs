@@ -23,6 +23,7 @@
 )]
 
 mod core;
+mod detectors;
 mod embed;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 use std::process::Command;
 
 /// Looks at what would become a download: its name, and its bytes in base64.
-const LOOK: &str = "window.saved = null; HTMLAnchorElement.prototype.click = async function () { \
+pub const LOOK: &str = "window.saved = null; HTMLAnchorElement.prototype.click = async function () { \
     const { download, href } = this; \
     const bytes = new Uint8Array(await (await fetch(href)).arrayBuffer()); \
     let text = ''; for (const byte of bytes) text += String.fromCharCode(byte); \
@@ -18,7 +18,7 @@ const NO_FONTS: &str = "{ const Real = Blob; \
 
 /// Picks an entry of a card's menu; gives name and bytes of what is saved.
 #[track_caller]
-fn saved(page: &mut Page, menu: &str, entry: &str) -> (String, Vec<u8>) {
+pub fn saved(page: &mut Page, menu: &str, entry: &str) -> (String, Vec<u8>) {
     page.eval("window.saved = null; 1");
     page.click("Button", menu);
     page.wait("the menu", |page| page.widgets().into_iter().find(|widget| widget.label == entry));

@@ -25,7 +25,8 @@ fn again(page: &mut Page) {
     page.wait("the page", |page| page.data("ready").filter(|ready| ready == "true"));
 }
 
-fn tuning(page: &mut Page) -> Option<Value> {
+/// What the page says of the study on its stage.
+pub fn tuning(page: &mut Page) -> Option<Value> {
     page.data("tuning").and_then(|text| serde_json::from_str(&text).ok()).map(plain)
 }
 

@@ -7,7 +7,6 @@ use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{ContactKind, EstimationKind, Place, Plan, Scenario, Start};
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_2;
-use std::path::Path;
 
 fn preset(name: &str) -> Scenario {
     find(name).and_then(|preset| preset.scenario()).expect(name)
@@ -209,17 +208,6 @@ fn kind_and_rounding_are_keys_like_others() {
     let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
     assert_eq!(report["scenario"]["contact"]["kind"], "cylinder");
     assert_eq!(report["plant"][0]["what"], "met");
-}
-
-#[test]
-fn the_figure_of_the_page_on_touch_is_the_commands() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/touch-figure-4.svg");
-    let fresh = std::env::temp_dir().join(format!("centrode-{}-touch.svg", std::process::id()));
-    let output = centrode(&["figure", "4", "--out", fresh.to_str().expect("UTF-8")]);
-    assert!(output.status.success());
-    let stored = std::fs::read_to_string(path).expect("stored");
-    assert!(stored == std::fs::read_to_string(&fresh).expect("written"), "make it anew, as docs/TOUCH.md says");
-    let _ = std::fs::remove_file(fresh);
 }
 
 #[test]

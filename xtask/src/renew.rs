@@ -14,6 +14,8 @@ pub enum Stored {
     Keys,
     /// The hashes of everything computed in tests/data/fingerprints.json: only when numbers were meant to change
     Fingerprints,
+    /// The drawings that documents show: look at each one before it is committed
+    Drawings,
 }
 
 impl Stored {
@@ -23,6 +25,7 @@ impl Stored {
             Self::Pictures => ["interface", "pictures::", "UPDATE_SNAPSHOTS"],
             Self::Keys => ["it", "keys::", "UPDATE_SNAPSHOTS"],
             Self::Fingerprints => ["it", "fingerprints::", "UPDATE_FINGERPRINTS"],
+            Self::Drawings => ["it", "documented::", "UPDATE_SNAPSHOTS"],
         }
     }
 }

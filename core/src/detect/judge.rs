@@ -221,13 +221,43 @@ pub struct Judged {
 /// ```
 #[must_use]
 pub fn judge(recording: &Recording, settings: &Settings) -> Judged {
-    let settings = settings.on(recording);
-    let monitor = settings.monitor(&recording.entries);
-    let mut observer = Observer::new(&settings, monitor);
-    let evidence = recording.entries.iter().map(|entry| observer.observe(entry)).collect();
-    let watched = observer.watched();
-    let judged = Judged { settings: settings.clone(), evidence, watched, crossings: Vec::new(), events: Vec::new() };
-    judged.again(recording, settings)
+    Judging::new(recording, settings).finish(recording)
+}
+
+/// A recording being judged, some entries at a time.
+#[derive(Debug, Clone)]
+pub struct Judging {
+    settings: Settings,
+    observer: Observer,
+    evidence: Vec<Evidence>,
+}
+
+impl Judging {
+    /// Before its first entry.
+    #[must_use]
+    pub fn new(recording: &Recording, settings: &Settings) -> Self {
+        let settings = settings.on(recording);
+        let observer = Observer::new(&settings, settings.monitor(&recording.entries));
+        Self { settings, observer, evidence: Vec::with_capacity(recording.entries.len()) }
+    }
+
+    /// Looks at so many of the next entries of the same recording, or all that are left; returns whether it has seen all.
+    pub fn look(&mut self, recording: &Recording, entries: usize) -> bool {
+        let next = recording.entries.iter().skip(self.evidence.len()).take(entries);
+        self.evidence.extend(next.map(|entry| self.observer.observe(entry)));
+        self.evidence.len() >= recording.entries.len()
+    }
+
+    /// What is concluded, once it has seen the rest.
+    #[must_use]
+    pub fn finish(mut self, recording: &Recording) -> Judged {
+        self.look(recording, usize::MAX);
+        let Self { settings, observer, evidence } = self;
+        let watched = observer.watched();
+        let judged =
+            Judged { settings: settings.clone(), evidence, watched, crossings: Vec::new(), events: Vec::new() };
+        judged.again(recording, settings)
+    }
 }
 
 impl Judged {

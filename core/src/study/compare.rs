@@ -17,6 +17,7 @@ pub use outcome::Outcome;
 
 use super::{Job, Progress};
 use crate::detect::Method;
+use crate::detect::calibration::bound::Drawing;
 use crate::run::at_most;
 use crate::scenario::{Detectors, Plan, Scenario, ScenarioError, Thresholds};
 use limits::Limits;
@@ -88,8 +89,18 @@ pub struct Compare {
     task: Task,
     limits: Limits,
     outcomes: BTreeMap<u64, Outcome>,
-    making: Option<Making>,
+    begun: Option<Begun>,
 }
+
+/// A piece of which parts are made.
+#[derive(Debug, Clone)]
+enum Begun {
+    Bound(usize, Box<Drawing>),
+    Repeat(Making),
+}
+
+/// Runs that are drawn for a bound in one part: natively some 10 ms.
+const DRAWN: usize = 4000;
 
 impl Compare {
     /// Checks what is to be compared.
@@ -116,7 +127,7 @@ impl Compare {
         let places = spec.scenario.detection.of(spec.detector).value().is_some();
         let after = if places { spec.after.clone() } else { Vec::new() };
         let task = Task { free: plan.without_contact(), plan, methods, detector: spec.detector, after };
-        Ok(Self { spec, task, limits, outcomes: BTreeMap::new(), making: None })
+        Ok(Self { spec, task, limits, outcomes: BTreeMap::new(), begun: None })
     }
 
     /// What is compared.
@@ -147,17 +158,31 @@ impl Compare {
     /// Makes a piece; changes nothing, so that many can be made at once. None where there is no such piece.
     #[must_use]
     pub fn make(&self, piece: Piece) -> Option<Made> {
-        match piece {
-            Piece::Bound(place) => {
-                let rate = *self.limits.rates().get(place)?;
-                Some(Made::Bound(rate, self.limits.delay(rate, self.spec.scenario.seed)?))
-            }
-            Piece::Repeat(repeat) => {
-                let mut making = Making::new(repeat);
-                while !making.step(&self.task) {}
-                Some(Made::Repeat(repeat, making.outcome()))
-            }
+        let mut begun = self.begin(piece)?;
+        while !self.go_on(&mut begun) {}
+        self.made(begun)
+    }
+
+    fn begin(&self, piece: Piece) -> Option<Begun> {
+        Some(match piece {
+            Piece::Bound(place) => Begun::Bound(place, Box::new(self.limits.drawing(place, self.spec.scenario.seed)?)),
+            Piece::Repeat(repeat) => Begun::Repeat(Making::new(repeat)),
+        })
+    }
+
+    /// Makes a part; returns whether the piece is whole.
+    fn go_on(&self, begun: &mut Begun) -> bool {
+        match begun {
+            Begun::Bound(_, drawing) => drawing.draw(DRAWN),
+            Begun::Repeat(making) => making.step(&self.task),
         }
+    }
+
+    fn made(&self, begun: Begun) -> Option<Made> {
+        Some(match begun {
+            Begun::Bound(place, drawing) => Made::Bound(*self.limits.rates().get(place)?, self.limits.delay(*drawing)?),
+            Begun::Repeat(making) => Made::Repeat(making.repeat(), making.outcome()),
+        })
     }
 
     /// Counts a piece in. One that was not asked for, or that does not fit, is left; returns whether it fits.
@@ -189,14 +214,22 @@ impl Compare {
 
     /// A part of a piece, small enough for a frame; what it comes to once it is whole. A piece that is left for another begins anew.
     pub fn part(&mut self, piece: Piece) -> Option<Made> {
-        let Piece::Repeat(repeat) = piece else { return self.make(piece) };
-        let begun = self.making.take().filter(|making| making.repeat() == repeat);
-        let mut making = begun.unwrap_or_else(|| Making::new(repeat));
-        if making.step(&self.task) {
-            return Some(Made::Repeat(repeat, making.outcome()));
+        let begun = self.begun.take().filter(|begun| begun.piece() == piece);
+        let mut begun = begun.or_else(|| self.begin(piece))?;
+        if self.go_on(&mut begun) {
+            return self.made(begun);
         }
-        self.making = Some(making);
+        self.begun = Some(begun);
         None
+    }
+}
+
+impl Begun {
+    fn piece(&self) -> Piece {
+        match self {
+            Self::Bound(place, _) => Piece::Bound(*place),
+            Self::Repeat(making) => Piece::Repeat(making.repeat()),
+        }
     }
 }
 

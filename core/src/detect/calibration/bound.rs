@@ -62,34 +62,90 @@ impl Delays {
     /// By drawing `runs` runs without and as many with a contact at `place` (m), from a seed. `rate` is the share of runs without
     /// contact in which it may alarm.
     #[must_use]
-    pub fn drawn(
+    pub fn drawn(moments: &[Moment], length: f64, contact: (f64, usize), rate: f64, runs: usize, seed: u64) -> Self {
+        let mut drawing = Drawing::new(moments, length, contact, (rate, runs), seed);
+        drawing.draw(usize::MAX);
+        drawing.delays()
+    }
+}
+
+/// Delays being drawn, some runs at a time.
+#[derive(Debug, Clone)]
+pub struct Drawing {
+    /// What each reading adds to the log likelihood ratio: its deviation, and half its square.
+    steps: Vec<[f64; 2]>,
+    normal: Normal,
+    rate: f64,
+    runs: usize,
+    /// The largest ratio of each run without contact so far; falling once all are drawn.
+    most: Vec<f64>,
+    readings: Vec<usize>,
+}
+
+impl Drawing {
+    /// As [`Delays::drawn`] has it, before the first of so many runs.
+    #[must_use]
+    pub fn new(
         moments: &[Moment],
         length: f64,
         (place, began): (f64, usize),
-        rate: f64,
-        runs: usize,
+        (rate, runs): (f64, usize),
         seed: u64,
     ) -> Self {
-        let added = added(moments, length, place / length, began, 0.0);
-        let mut normal = Normal::new(seed, Source::Bound);
-        let mut steps = |sign: f64| -> Vec<f64> {
-            let mut sum = 0.0;
-            added
-                .iter()
-                .map(|w| {
-                    let square: f64 = w.iter().map(|w| w * w).sum();
-                    sum += sqrt(square) * normal.draw() + sign * 0.5 * square;
-                    sum
-                })
-                .collect()
+        let step = |w: &[f64; 3]| {
+            let square: f64 = w.iter().map(|w| w * w).sum();
+            [sqrt(square), 0.5 * square]
         };
-        let mut most: Vec<f64> = (0..runs).map(|_| steps(-1.0).into_iter().fold(f64::NEG_INFINITY, f64::max)).collect();
-        most.sort_by(|a, b| b.total_cmp(a));
-        let threshold = most.get((rate * runs as f64) as usize).copied().unwrap_or(0.0);
-        let mut readings: Vec<usize> = (0..runs)
-            .map(|_| steps(1.0).iter().position(|sum| *sum > threshold).map_or(usize::MAX, |k| k + 1))
-            .collect();
-        readings.sort_unstable();
-        Self { threshold, readings }
+        let steps = added(moments, length, place / length, began, 0.0).iter().map(step).collect();
+        Self { steps, normal: Normal::new(seed, Source::Bound), rate, runs, most: Vec::new(), readings: Vec::new() }
+    }
+
+    /// Draws so many runs more, or all that are left; returns whether none are.
+    pub fn draw(&mut self, runs: usize) -> bool {
+        for _ in 0..runs {
+            if self.most.len() < self.runs {
+                self.free();
+            } else if self.readings.len() < self.runs {
+                self.held();
+            } else {
+                break;
+            }
+        }
+        self.readings.len() >= self.runs
+    }
+
+    fn free(&mut self) {
+        let (mut sum, mut most) = (0.0, f64::NEG_INFINITY);
+        for [deviation, half] in &self.steps {
+            sum += deviation * self.normal.draw() - half;
+            most = f64::max(most, sum);
+        }
+        self.most.push(most);
+        if self.most.len() == self.runs {
+            self.most.sort_by(|a, b| b.total_cmp(a));
+        }
+    }
+
+    fn held(&mut self) {
+        let threshold = self.threshold();
+        let (mut sum, mut first) = (0.0, usize::MAX);
+        for (k, [deviation, half]) in self.steps.iter().enumerate() {
+            sum += deviation * self.normal.draw() + half;
+            if first == usize::MAX && sum > threshold {
+                first = k + 1;
+            }
+        }
+        self.readings.push(first);
+    }
+
+    fn threshold(&self) -> f64 {
+        self.most.get((self.rate * self.runs as f64) as usize).copied().unwrap_or(0.0)
+    }
+
+    /// What was drawn comes to.
+    #[must_use]
+    pub fn delays(mut self) -> Delays {
+        self.readings.sort_unstable();
+        Delays { threshold: self.threshold(), readings: self.readings }
     }
 }

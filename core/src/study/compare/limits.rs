@@ -1,8 +1,9 @@
 //! What no test and no estimate can beat, from the nominal course of a plan.
 
 use crate::detect::Settings;
+use crate::detect::calibration::bound::{self, Drawing};
 use crate::detect::calibration::course::{Model, Moment, Planner};
-use crate::detect::calibration::{Command, Noise, bound, noise};
+use crate::detect::calibration::{Command, Noise, noise};
 use crate::scenario::Plan;
 use serde::{Deserialize, Serialize};
 
@@ -137,11 +138,16 @@ impl Limits {
         &self.places
     }
 
-    /// The delay of the test that knows where and when the contact begins, and no errors of calibration.
-    pub(super) fn delay(&self, rate: f64, seed: u64) -> Option<Delay> {
+    /// The delay of the test that knows where and when the contact begins, and no errors of calibration, before the first run is drawn.
+    pub(super) fn drawing(&self, place: usize, seed: u64) -> Option<Drawing> {
+        let (course, rate) = (self.course.as_ref()?, *self.rates.get(place)?);
+        Some(Drawing::new(&course.moments, course.length, (course.place, course.began), (rate, DRAWN), seed))
+    }
+
+    /// The delay that was drawn for a rate.
+    pub(super) fn delay(&self, drawing: Drawing) -> Option<Delay> {
         let course = self.course.as_ref()?;
-        let delays =
-            bound::Delays::drawn(&course.moments, course.length, (course.place, course.began), rate, DRAWN, seed);
+        let delays = drawing.delays();
         let at = |share: f64| {
             let place = ((share * DRAWN as f64) as usize).min(DRAWN - 1);
             delays.readings.get(place).and_then(|readings| course.since(*readings)).unwrap_or(f64::NAN)

@@ -2,11 +2,14 @@
 
 use crate::detect::Method;
 use crate::detect::estimates::Estimated;
-use crate::run::Run;
+use crate::run::{Run, Unfinished};
 use crate::scenario::{Estimator, Plan};
 use crate::study::seed::repeat_seed;
 use crate::study::tuning::watch::NEVER;
 use serde::{Deserialize, Serialize};
+
+/// Entries of a run that are judged in one part, with the bank of the likelihood ratio and without: natively some 10 ms.
+const STRETCH: [usize; 2] = [1000, 20_000];
 
 /// Where the largest value so far of a detector rose, in one run: at which sample, and to what.
 type Climb = Vec<(u32, f64)>;
@@ -24,6 +27,12 @@ pub(super) struct Task {
     pub detector: Method,
     /// So long after the alarm, s; nothing where nothing is placed.
     pub after: Vec<f64>,
+}
+
+impl Task {
+    fn stretch(&self) -> usize {
+        STRETCH[usize::from(!self.methods.contains(&Method::Glr))]
+    }
 }
 
 /// One place, and the truth.
@@ -79,18 +88,33 @@ impl Outcome {
     }
 }
 
-/// A repeat being made, a run or a time after the alarm at a time.
+/// A repeat being made: each run is recorded, then judged a stretch at a time; of the one with contact places follow, a time after the
+/// alarm at a time.
 #[derive(Debug, Clone)]
 pub(super) struct Making {
     repeat: u64,
     outcome: Outcome,
-    /// The run with contact, and which place comes next.
-    held: Option<(Box<Run>, usize)>,
+    next: Next,
+}
+
+/// What a repeat has to make next.
+#[derive(Debug, Clone)]
+enum Next {
+    Record(Which),
+    Judge(Which, Box<Unfinished>),
+    Place(Box<Run>, usize),
+    Nothing,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Which {
+    Free,
+    Held,
 }
 
 impl Making {
     pub(super) fn new(repeat: u64) -> Self {
-        Self { repeat, outcome: Outcome::default(), held: None }
+        Self { repeat, outcome: Outcome::default(), next: Next::Record(Which::Free) }
     }
 
     pub(super) fn repeat(&self) -> u64 {
@@ -104,27 +128,44 @@ impl Making {
 
     /// Makes the next part; returns whether it is whole.
     pub(super) fn step(&mut self, task: &Task) -> bool {
-        let seed = |which: u64| repeat_seed(task.plan.scenario().seed, 2 * self.repeat + which);
-        if self.outcome.free.is_empty() {
-            let free = Run::new(task.free.with_seed(seed(0)));
-            self.outcome.white = free.judged.whiteness().map(|test| !test.fails());
-            self.outcome.free = climbs(task, &free);
-            return false;
-        }
-        if let Some((run, next)) = &mut self.held {
-            let placed = placed(task, run, *next);
-            self.outcome.placed.extend(placed);
-            *next += 1;
-            return *next >= task.after.len();
-        }
-        let held = Run::new(task.plan.with_seed(seed(1)));
-        self.outcome.held = climbs(task, &held);
+        self.next = match std::mem::replace(&mut self.next, Next::Nothing) {
+            Next::Record(which) => {
+                let plan = if which == Which::Held { &task.plan } else { &task.free };
+                let seed = repeat_seed(task.plan.scenario().seed, 2 * self.repeat + u64::from(which == Which::Held));
+                Next::Judge(which, Box::new(Unfinished::new(plan.with_seed(seed))))
+            }
+            Next::Judge(which, mut run) => match (run.judge(task.stretch()), which) {
+                (false, _) => Next::Judge(which, run),
+                (true, Which::Free) => {
+                    self.free(task, &run.finish());
+                    Next::Record(Which::Held)
+                }
+                (true, Which::Held) => self.held(task, run.finish()),
+            },
+            Next::Place(run, place) => {
+                self.outcome.placed.extend(placed(task, &run, place));
+                if place + 1 < task.after.len() { Next::Place(run, place + 1) } else { Next::Nothing }
+            }
+            Next::Nothing => Next::Nothing,
+        };
+        matches!(self.next, Next::Nothing)
+    }
+
+    /// Takes in the run without contact.
+    fn free(&mut self, task: &Task, run: &Run) {
+        self.outcome.white = run.judged.whiteness().map(|test| !test.fails());
+        self.outcome.free = climbs(task, run);
+    }
+
+    /// Takes in the one with contact, and says what follows.
+    fn held(&mut self, task: &Task, run: Run) -> Next {
+        self.outcome.held = climbs(task, &run);
+        let began = run.contact_time();
         self.outcome.contact =
-            held.contact_time().map(|time| held.recording.entries.partition_point(|entry| entry.time < time) as u32);
-        let found = held.judged.first(task.detector).zip(held.contact_time());
+            began.map(|time| run.recording.entries.partition_point(|entry| entry.time < time) as u32);
+        let found = run.judged.first(task.detector).zip(began);
         let is_placed = found.is_some_and(|(event, contact)| event.raised >= contact) && !task.after.is_empty();
-        self.held = is_placed.then(|| (Box::new(held), 0));
-        !is_placed
+        if is_placed { Next::Place(Box::new(run), 0) } else { Next::Nothing }
     }
 }
 

@@ -97,9 +97,9 @@ fn two_studies_share_a_helper_and_leave_each_others_answers() {
     let [first, second] = Lent::two(Some(Box::new(near.clone())));
     let (mut tuner, mut comparer) = (Tuner::new(first), Comparer::new(second));
     tuner.update(Some(&bench()), 3, false);
-    (0..3).for_each(|_| {
+    for _ in 0..3 {
         tuner.work(0.0);
-    });
+    }
     // The person goes to the detectors; what the helper had made for the thresholds comes late.
     tuner.update(None, 3, false);
     comparer.update(Some(&bench()), &tuning(3), false);
