@@ -194,6 +194,12 @@ impl Comparer {
         self.comparison.as_ref().map(|(version, comparison)| (seen, comparison, *version))
     }
 
+    /// Whether what there is to see is of the settings before.
+    #[must_use]
+    pub fn is_former(&self) -> bool {
+        self.before.is_some()
+    }
+
     /// How far it is; none when nothing is left, nobody looks or it is held.
     #[must_use]
     pub fn progress(&self) -> Option<Progress> {

@@ -152,7 +152,7 @@ fn choose(ui: &mut Ui, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>
 fn summary(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let said = words::summary(comparison, inputs);
-    let advice = comparison.advice();
+    let advice = comparison.advice().filter(|_| !inputs.comparer.is_former());
     ui.horizontal_top(|ui| {
         let mut text = rich(&said, 13.0, theme.ink);
         let room = if advice.is_some() { 70.0 } else { 0.0 };

@@ -214,7 +214,7 @@ mod tests {
     fn an_encoder_at_rest_stands_still_and_a_slow_start_does_not() {
         let mut normal = Normal::new(3, Source::Tracker);
         let mut commands = |jitter: f64, start: u32| -> Vec<Command> {
-            let bend = |k: u32| 1e-5 * f64::from(k.saturating_sub(start)).powi(2);
+            let bend = |k: u32| 1e-5 * f64::from(k.saturating_sub(start) * k.saturating_sub(start));
             let command = |k: u32| Command {
                 time: 0.01 * f64::from(k),
                 bend: bend(k) + jitter * normal.draw(),

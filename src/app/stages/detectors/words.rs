@@ -63,7 +63,11 @@ pub fn summary(comparison: &Comparison, inputs: &Inputs<'_>) -> String {
     }
     let wish = wished(comparison.rate);
     let left = inputs.comparer.left().is_some();
-    let so_far = if left { "So far: " } else { "" };
+    let so_far = match left {
+        _ if inputs.comparer.is_former() => "With the settings before: ",
+        true => "So far: ",
+        false => "",
+    };
     let told = match comparison.advice() {
         Some((method, point)) => format!(
             "Soonest with at most {wish} % false alarms: {}, {}, {} s after contact (median).",
