@@ -4,7 +4,7 @@
 //! stiffness in torsion. The joints fix the integral of its curvature, two [`Bends`] for each segment; how the curvature is
 //! spread along the segment, and how the segment twists, is up to the elastic energy and the contacts.
 //!
-//! Reading order: [`free`] (nothing touches: arcs in series), [`joints`] (concentric backbones), [`elastic`] (against planes),
+//! Reading order: [`mod@free`] (nothing touches: arcs in series), [`joints`] (concentric backbones), [`elastic`] (against planes),
 //! and what that is made of: `gauss` (nodes), `modes` (what the curvature is a sum of), `shape` (from curvature to rotations and
 //! positions), `variation` (derivatives of a point's position), `newton` (equilibrium), `stability`.
 //!

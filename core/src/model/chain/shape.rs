@@ -1,6 +1,6 @@
 //! From the curvature at nodes to the rotation and position there.
 //!
-//! R′ = R [u]×, p′ = R e₃. On each piece R = R₀ e^[Ω]×, with Ω′ = v + ½ Ω × v + c(|Ω|) Ω × (Ω × v).
+//! R′ = R \[u\]×, p′ = R e₃. On each piece R = R₀ e^\[Ω\]×, with Ω′ = v + ½ Ω × v + c(|Ω|) Ω × (Ω × v).
 
 use super::modes::Layout;
 use crate::model::special::Angle;
@@ -92,7 +92,7 @@ fn twice(x: f64) -> f64 {
     if x == 0.0 { 1.0 / 12.0 } else { half.sinc_drop() / (4.0 * half.sine()) }
 }
 
-/// e^[Ω]×.
+/// e^\[Ω\]×.
 fn exponential(vector: &Vec3) -> Mat3 {
     let angle = Angle::new(vector.norm());
     let cross = vector.cross_matrix();
