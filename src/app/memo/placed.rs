@@ -239,6 +239,9 @@ mod tests {
             Event { cleared: Some(first.raised + 1.0), ..first },
             Event { raised: first.raised + 1.5, cleared: None, ..first },
         ];
+        let watched = run.judged.watched.as_mut().expect("watched");
+        let left = watched.at(first.raised + 1.0).expect("a reading");
+        watched.heard[left].cusum = 0.0;
         let mut placed = Placed::default();
         placed.renew(&run, 0);
         while placed.work(&run, first.raised + 2.0) {}
