@@ -1,13 +1,13 @@
-// Fetches the program and counts its bytes.
+// Counts the bytes of the program as they come.
 
-/// Fetches `url` as a wasm response that can be compiled while it arrives.
+/// What is fetched (a promise of a response) as a wasm response that can be compiled while it arrives.
 ///
 /// What a stream hands out is already decompressed, so it is counted against `total`, the size that the build
 /// wrote into the page: Content-Length may be missing, or be that of the compressed body.
-export async function download(url, total, onProgress) {
-  const response = await fetch(url);
+export async function download(fetched, total, onProgress) {
+  const response = await fetched;
   if (!response.ok) {
-    throw new Error(`${url.pathname}: the server answered ${response.status} ${response.statusText}`);
+    throw new Error(`${new URL(response.url).pathname}: the server answered ${response.status} ${response.statusText}`);
   }
   // Its own content type, because some static hosts send none for wasm.
   const headers = { "Content-Type": "application/wasm" };

@@ -6,7 +6,9 @@ import { acceptDrops, choose, chooseLog, picture, pixels, save } from "./files.j
 import { logs } from "./logs.js";
 import { messages } from "./messages.js";
 import { mirror } from "./mirror.js";
+import { keepOffline } from "./offline.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
+import { program, SINGLE } from "./parts.js";
 import { readQuery } from "./query.js";
 import { studies } from "./studies.js";
 
@@ -45,7 +47,8 @@ const hooks = {
   lost: (message) => fail(showLost, message),
   address: tell,
   save,
-  open: (page) => window.open(new URL(page, location.href), "_blank", "noopener"),
+  // A single file holds the theory, too, and shows it where it is asked for.
+  open: (page) => window.open(new URL(SINGLE ? page.replace("theory.html", "?theory") : page, location.href), "_blank", "noopener"),
   post: (json) => host?.post(JSON.parse(json)),
   // Set once the program is there.
   choose: () => {},
@@ -102,7 +105,7 @@ async function main() {
   passThrough();
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
-  const wasm = await download(new URL("./centrode_bg.wasm", import.meta.url), Number(script.dataset.wasmBytes), showProgress);
+  const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
   hooks.study = studies(core, module);
@@ -118,6 +121,7 @@ async function main() {
   if (settings.test) globalThis.centrode = core;
   if (!(await startOnSome(core))) return;
   host?.start(core);
+  keepOffline();
   showNotices(notices, () => document.getElementById("canvas").focus());
 }
 

@@ -1,6 +1,7 @@
 //! Drives the built page in a real Chromium, over its DevTools protocol. No Node, no downloaded driver.
 
 mod chromium;
+pub mod host;
 mod page;
 mod picture;
 

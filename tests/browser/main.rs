@@ -22,6 +22,7 @@
     reason = "tests read files, run programs and wait for them"
 )]
 
+mod carried;
 mod core;
 mod detectors;
 mod embed;

@@ -33,6 +33,8 @@ mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
+#[cfg(feature = "cli")]
+mod icons;
 mod keys;
 mod link;
 #[cfg(feature = "cli")]

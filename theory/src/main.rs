@@ -1,6 +1,7 @@
-//! Writes `theory.html`: the model in words, its equations as MathML, and figures made by the same code as the page's.
+//! Writes `theory.html`: the model in words, its equations as MathML, and figures made by the same code as the page's; and the picture of the
+//! robot that the page shows while its program loads.
 //!
-//! `cargo xtask build` runs it with the path of the file to write. The texts are in `text/`, and [`page`] says how they are written.
+//! `cargo xtask build` runs it with the paths of the files to write. The texts are in `text/`, and [`page`] says how they are written.
 
 #![allow(clippy::disallowed_methods, reason = "it writes a file")]
 
@@ -11,6 +12,7 @@ mod figures;
 mod math;
 mod misprints;
 mod page;
+mod poster;
 mod states;
 mod symbols;
 #[cfg(test)]
@@ -19,7 +21,10 @@ mod tests;
 use anyhow::{Context, Result};
 
 fn main() -> Result<()> {
-    let path = std::env::args_os().nth(1).context("name the file to write")?;
-    let html = page::page(&facts::facts()?)?;
-    std::fs::write(&path, html).with_context(|| format!("cannot write {}", path.display()))
+    let mut paths = std::env::args_os().skip(1);
+    for text in [page::page(&facts::facts()?)?, poster::poster()?] {
+        let path = paths.next().context("name the file for the theory, and the one for the poster")?;
+        std::fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+    }
+    Ok(())
 }

@@ -10,15 +10,44 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+mod index;
+pub mod single;
+
 /// Files by their path inside the page.
 type Files = BTreeMap<String, Vec<u8>>;
 
-/// Builds the page and gives its directory. `dev`: fast to build, large to load.
-pub fn build(dev: bool) -> Result<PathBuf> {
+/// The program among the parts.
+const PROGRAM: &str = "centrode_bg.wasm";
+/// What keeps the page for when there is no network; its name stays, for browsers come back for it.
+const KEEPER: &str = "offline-worker.js";
+/// What makes the page an application that can be installed.
+const MANIFEST: &str = "manifest.webmanifest";
+
+/// What is built.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum Which {
+    /// The page as it is published.
+    Published,
+    /// The same, and beside it the page as a single file.
+    WithSingle,
+    /// Fast to build, large to load.
+    Dev,
+}
+
+impl Which {
+    /// Of a flag.
+    pub fn dev(dev: bool) -> Self {
+        if dev { Self::Dev } else { Self::Published }
+    }
+}
+
+/// Builds the page and gives its directory.
+pub fn build(which: Which) -> Result<PathBuf> {
+    let dev = which == Which::Dev;
     let start = Instant::now();
     tools::wasm_target()?;
     let module = compile(dev)?;
-    let files = page(&root(), bind(&module)?, theory::make()?)?;
+    let files = page(&root(), bind(&module)?, &theory::make()?, which == Which::WithSingle)?;
     let dist = root().join("dist");
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
@@ -62,32 +91,45 @@ fn bind(module: &Path) -> Result<Files> {
         files.insert(format!("snippets/{name}"), text.as_bytes().to_vec());
     }
     files.insert("centrode.js".into(), output.js().as_bytes().to_vec());
-    files.insert("centrode_bg.wasm".into(), output.wasm_mut().emit_wasm());
+    files.insert(PROGRAM.into(), output.wasm_mut().emit_wasm());
     Ok(files)
 }
 
 /// All files of the page. What never changes under one name lies in a directory named by its content,
 /// so that no browser can mix two builds.
-fn page(root: &Path, mut parts: Files, theory: Vec<u8>) -> Result<Files> {
+fn page(root: &Path, mut parts: Files, theory: &theory::Made, with_single: bool) -> Result<Files> {
     for entry in fs::read_dir(root.join("web")).context("web/")? {
         let path = entry?.path();
-        if path.extension().is_some_and(|extension| extension == "js") {
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.ends_with(".js") && name != KEEPER {
             parts.insert(name.into_owned(), fs::read(&path)?);
         }
     }
-    parts.insert("icon.svg".into(), fs::read(root.join("assets/icons/icon.svg"))?);
-
+    for icon in ["icon.svg", "icon-180.png", "icon-192.png", "icon-512.png"] {
+        parts.insert(icon.into(), fs::read(root.join("assets/icons").join(icon)).with_context(|| icon.to_owned())?);
+    }
+    let read = |name: &str| fs::read_to_string(root.join(name)).with_context(|| name.to_owned());
+    let (html, style) = (read("index.html")?, read("web/style.css")?);
     let folder = format!("build-{:016x}", fingerprint(&parts));
-    let wasm_bytes = parts["centrode_bg.wasm"].len().to_string();
-    let index = fs::read_to_string(root.join("index.html")).context("index.html")?;
-    let style = fs::read_to_string(root.join("web/style.css")).context("web/style.css")?;
-    let index =
-        index.replace("@BUILD@", &folder).replace("@STYLE@", style.trim_end()).replace("@WASM_BYTES@", &wasm_bytes);
+    let bytes = parts[PROGRAM].len().to_string();
+    let values = [
+        ("BUILD", folder.as_str()),
+        ("STYLE", style.trim_end()),
+        ("POSTER", theory.poster.trim_end()),
+        ("WASM_BYTES", &bytes),
+    ];
+    let single = with_single.then(|| single::page(&html, &values, &parts, &theory.html)).transpose()?;
+    let index = index::secured(&index::fill(&index::beside(&html, index::From::Host)?, &values)?, index::From::Host)?;
 
     let mut files: Files = parts.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)).collect();
+    let manifest = index::fill(&read("web/manifest.webmanifest")?, &values)?;
+    files.insert(MANIFEST.into(), manifest.into_bytes());
+    files.insert(theory::NAME.into(), theory.html.clone().into_bytes());
+    let kept = serde_json::to_string(&files.keys().collect::<Vec<_>>())?;
+    let keeper = index::fill(&read(&format!("web/{KEEPER}"))?, &[("BUILD", &folder), ("FILES", &kept)])?;
+    files.insert(KEEPER.into(), keeper.into_bytes());
     files.insert("index.html".into(), index.into_bytes());
-    files.insert(theory::NAME.into(), theory);
+    files.extend(single.map(|single| (single::NAME.to_owned(), single)));
     // A host page to try the page in a frame on.
     files.insert("examples/embed.html".into(), fs::read(root.join("examples/embed.html"))?);
     Ok(files)
@@ -116,13 +158,17 @@ fn write(dist: &Path, files: &Files) -> Result<()> {
 mod tests {
     use super::*;
 
+    fn theory() -> theory::Made {
+        theory::Made { html: "theory".into(), poster: "<svg/>".into() }
+    }
+
     fn parts() -> Files {
         Files::from([("centrode.js".into(), b"export default 1".to_vec()), ("centrode_bg.wasm".into(), vec![0; 123])])
     }
 
     #[test]
     fn every_reference_of_the_page_is_relative_and_exists() {
-        let files = page(&root(), parts(), b"theory".to_vec()).unwrap();
+        let files = page(&root(), parts(), &theory(), false).unwrap();
         let index = String::from_utf8(files["index.html"].clone()).unwrap();
         let mut references = 0;
         for attribute in ["src=\"", "href=\""] {
@@ -133,18 +179,25 @@ mod tests {
             }
         }
         assert!(references >= 5);
+        let manifest = String::from_utf8(files[MANIFEST].clone()).unwrap();
+        for rest in manifest.split("\"src\": \"").skip(1) {
+            let reference = rest.split('"').next().unwrap();
+            assert!(files.contains_key(reference), "{reference}");
+        }
         assert!(!index.contains('@') || !index.contains("@BUILD@"));
         assert!(index.contains("data-wasm-bytes=\"123\""));
     }
 
     #[test]
     fn another_module_gets_another_address() {
-        let folder = |files: &Files| files.keys().next().unwrap().clone();
-        let one = page(&root(), parts(), b"theory".to_vec()).unwrap();
+        let folder = |files: &Files| files.keys().find(|name| name.starts_with("build-")).unwrap().clone();
+        let one = page(&root(), parts(), &theory(), false).unwrap();
         let mut changed = parts();
         changed.insert("centrode_bg.wasm".into(), vec![1; 123]);
-        let other = page(&root(), changed, Vec::new()).unwrap();
+        let keeper = String::from_utf8(one[KEEPER].clone()).unwrap();
+        assert!(keeper.contains(&format!("\"{}\"", folder(&one))) && keeper.contains("\"theory.html\""));
+        let other = page(&root(), changed, &theory(), false).unwrap();
         assert_ne!(folder(&one), folder(&other));
-        assert_eq!(folder(&one), folder(&page(&root(), parts(), b"theory".to_vec()).unwrap()));
+        assert_eq!(folder(&one), folder(&page(&root(), parts(), &theory(), false).unwrap()));
     }
 }

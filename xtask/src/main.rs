@@ -16,6 +16,7 @@ mod tools;
 mod transfer;
 
 use anyhow::Result;
+use build::Which;
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -34,6 +35,9 @@ enum Command {
         /// Fast to build, large to load
         #[arg(long)]
         dev: bool,
+        /// Also as a single file, dist/centrode.html, that opens from a disk or a mail
+        #[arg(long, conflicts_with = "dev")]
+        single_file: bool,
     },
     /// Build the page and serve it on this machine
     Serve {
@@ -73,7 +77,8 @@ fn main() -> ExitCode {
 
 fn obey(command: Command) -> Result<()> {
     match command {
-        Command::Build { dev } => build::build(dev).map(drop),
+        Command::Build { single_file: true, .. } => build::build(Which::WithSingle).map(drop),
+        Command::Build { dev, .. } => build::build(Which::dev(dev)).map(drop),
         Command::Serve { port, dev, dist } => serve::command(port, dev, dist),
         Command::Test(options) => test::command(&options),
         Command::Renew { stored } => renew::command(stored),

@@ -16,6 +16,8 @@ pub enum Stored {
     Fingerprints,
     /// The drawings that documents show: look at each one before it is committed
     Drawings,
+    /// The icons of the installed page, made of assets/icons/icon.svg
+    Icons,
 }
 
 impl Stored {
@@ -26,6 +28,7 @@ impl Stored {
             Self::Keys => ["it", "keys::", "UPDATE_SNAPSHOTS"],
             Self::Fingerprints => ["it", "fingerprints::", "UPDATE_FINGERPRINTS"],
             Self::Drawings => ["it", "documented::", "UPDATE_SNAPSHOTS"],
+            Self::Icons => ["it", "icons::", "UPDATE_SNAPSHOTS"],
         }
     }
 }

@@ -1,6 +1,6 @@
 //! A static file server on this machine, for development and tests.
 
-use crate::build;
+use crate::build::{self, Which};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
 use std::io;
@@ -20,7 +20,7 @@ pub fn command(port: Option<u16>, dev: bool, dist: Option<PathBuf>) -> Result<()
     let dist = match dist {
         Some(dist) if dist.join("index.html").is_file() => dist,
         Some(dist) => bail!("--dist {}: there is no index.html in it", dist.display()),
-        None => build::build(dev)?,
+        None => build::build(Which::dev(dev))?,
     };
     let address = listener.local_addr()?;
     let threads = serve(listener, &dist, "/")?;

@@ -1,7 +1,8 @@
 //! Pictures of the page for people to look at.
 
+use crate::build::{self, Which};
 use crate::run::{cargo, root, run};
-use crate::{build, serve, tools};
+use crate::{serve, tools};
 use anyhow::Result;
 use clap::Args;
 use std::path::PathBuf;
@@ -28,7 +29,7 @@ pub fn command(options: &Options) -> Result<()> {
     let browser = tools::browser()?;
     let dist = match &options.dist {
         Some(dist) => dist.clone(),
-        None => build::build(options.dev)?,
+        None => build::build(Which::dev(options.dev))?,
     };
     let page = serve::background(&dist, "/")?;
     std::fs::create_dir_all(&options.out)?;

@@ -1,8 +1,9 @@
 //! Every test, in stages; everything it needs is installed first.
 
+use crate::build::{self, Which};
 use crate::run::{cargo, run};
 use crate::tools::{self, WASM};
-use crate::{build, serve, theory};
+use crate::{serve, theory};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -101,13 +102,15 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         Stage::Browser => {
             let browser = tools::browser()?;
             // Not at the root, so that an absolute address anywhere in the page shows.
-            let page = serve::background(&page(options.dev, dist)?, "/deep/path/")?;
+            let dist = page(options.dev, dist)?;
+            let page = serve::background(&dist, "/deep/path/")?;
             run(cargo()
                 .arg("test")
                 .args(PRODUCT)
                 .args(["--test", "browser", "--"])
                 .args(&options.arguments)
                 .env("CENTRODE_PAGE", page)
+                .env("CENTRODE_DIST", &dist)
                 .env("CENTRODE_BROWSER", browser))
         }
     }
@@ -118,7 +121,7 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
     if let Some(dist) = dist {
         return Ok(dist.clone());
     }
-    let built = build::build(dev)?;
+    let built = build::build(if dev { Which::Dev } else { Which::WithSingle })?;
     theory::check(&std::fs::read_to_string(built.join(theory::NAME))?)?;
     Ok(dist.insert(built).clone())
 }

@@ -9,11 +9,21 @@ pub const NAME: &str = "theory.html";
 /// It is no larger, bytes: a page with sixteen drawings and a font.
 const LARGEST: usize = 1_000_000;
 
+/// What is made of it.
+pub struct Made {
+    /// The theory.
+    pub html: String,
+    /// The picture that the page shows while the program loads, an SVG.
+    pub poster: String,
+}
+
 /// Makes it.
-pub fn make() -> Result<Vec<u8>> {
-    let path = target().join(NAME);
-    run(cargo().args(["run", "--quiet", "--package", "centrode-theory", "--"]).arg(&path))?;
-    fs::read(&path).with_context(|| format!("cannot read {}", path.display()))
+pub fn make() -> Result<Made> {
+    let paths = [NAME, "poster.svg"].map(|name| target().join(name));
+    run(cargo().args(["run", "--quiet", "--package", "centrode-theory", "--"]).args(&paths))?;
+    let [html, poster] =
+        paths.map(|path| fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display())));
+    Ok(Made { html: html?, poster: poster? })
 }
 
 /// Checks that it is whole and small, and needs no script and nothing from elsewhere.

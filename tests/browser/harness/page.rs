@@ -102,6 +102,12 @@ impl Page {
     fn start(renderer: Renderer, options: Options) -> (Self, String) {
         let address = std::env::var("CENTRODE_PAGE")
             .expect("CENTRODE_PAGE names no page: these tests are run by `cargo xtask test browser`");
+        (Self::blank(renderer, options), address)
+    }
+
+    /// A browser that looks as the options say, on no page yet.
+    #[track_caller]
+    pub fn blank(renderer: Renderer, options: Options) -> Self {
         let mut page = Self { chromium: Chromium::start(renderer, options.scale), options };
         page.resize(options.size);
         let preference = |name, on, yes, no| json!({ "name": name, "value": if on { yes } else { no } });
@@ -115,7 +121,7 @@ impl Page {
         if options.phone {
             page.chromium.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         }
-        (page, address)
+        page
     }
 
     /// Goes to an address and waits for nothing.
