@@ -1,5 +1,5 @@
 // Logs: kept by number, read in a worker of their own, which ends with its file so that its memory is free again.
-import { part } from "./parts.js";
+import { worker as workerOf } from "./parts.js";
 
 // So much of a file says what it is.
 const HEAD_BYTES = 65536;
@@ -28,7 +28,7 @@ export function logs(core, module) {
       else core.log_worker_failed(reason);
     };
     try {
-      const made = new Worker(part("log-worker.js"), { type: "module" });
+      const made = workerOf("log-worker.js");
       worker = made;
       made.onerror = (event) => made === worker && fail(event.message ?? "the worker could not be loaded");
       made.onmessageerror = () => made === worker && fail("the worker's answer could not be read");

@@ -1,5 +1,5 @@
 // The page's end of the worker: started when the first study is asked for, replaced by nothing when it fails.
-import { part } from "./parts.js";
+import { worker as workerOf } from "./parts.js";
 
 /// A function that takes a request (JSON, or nothing for none). `core` is the program, to which answers go; `module` is
 /// what it was made from, compiled once for both.
@@ -18,7 +18,7 @@ export function studies(core, module) {
   }
 
   function start() {
-    worker = new Worker(part("worker.js"), { type: "module" });
+    worker = workerOf("worker.js");
     worker.onerror = (event) => fail(event.message ?? "it could not be loaded");
     worker.onmessageerror = () => fail("its answer could not be read");
     worker.onmessage = ({ data }) => {

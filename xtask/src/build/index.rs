@@ -57,14 +57,14 @@ fn is_name(word: &str) -> bool {
 pub fn secured(html: &str, from: From) -> Result<String> {
     let scripts = hashes(html, "script")?;
     let styles = hashes(html, "style")?;
-    let (script, style, worker, connect) = match from {
-        From::Host => ("'self'", styles.trim_start(), "'self'", "'self'"),
-        // It shows the theory in its own place, whose drawings are dressed one by one.
-        From::Itself => ("blob:", "'unsafe-inline'", "blob:", "blob:"),
+    let (script, style, worker, connect, font) = match from {
+        From::Host => ("'self'", styles.trim_start(), "'self'", "'self'", ""),
+        // It shows the theory in its own place, which brings a font, and whose equations are dressed one by one.
+        From::Itself => ("blob:", "'unsafe-inline'", "blob:", "blob:", " font-src data:;"),
     };
     let policy = format!(
         "default-src 'none'; script-src {script} 'wasm-unsafe-eval'{scripts}; style-src {style}; img-src 'self' data: blob:; \
-         connect-src {connect}; worker-src {worker}; manifest-src 'self'; base-uri 'none'; form-action 'none'"
+         connect-src {connect};{font} worker-src {worker}; manifest-src 'self'; base-uri 'none'; form-action 'none'"
     );
     Ok(html.replace("@POLICY@", &policy))
 }
