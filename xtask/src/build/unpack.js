@@ -37,9 +37,10 @@
       async function showTheory() {
         const html = await unpacked("theory").text();
         document.open();
+        // To where the address leads, once all is there: the browser looked for it before.
+        addEventListener("load", () => location.hash && location.replace(location.hash));
         document.write(html);
         document.close();
-        document.getElementById(location.hash.slice(1))?.scrollIntoView();
       }
       async function start() {
         globalThis.centrodeProgram = Promise.resolve(unpacked("program"));
