@@ -31,10 +31,7 @@ fn moments(run: &Run) -> Vec<Moment> {
 fn began(run: &Run) -> Beginning {
     let watched = run.judged.watched.as_ref().expect("watched");
     let contact = run.plan.contact().expect("one");
-    let commands = &watched.readings.commands;
-    let after = commands.iter().position(|command| contact.side * (command.bend - contact.bend) > 0.0).expect("met");
-    let [from, to] = [after - 1, after].map(|k| commands[k].bend);
-    Beginning { reading: after - 1, share: (contact.bend - from) / (to - from) }
+    Beginning::of(&watched.readings.commands, contact.bend, contact.side).expect("readings before and after")
 }
 
 fn length(run: &Run) -> f64 {

@@ -1,5 +1,6 @@
 //! What no detector and no estimator can do better with the same readings.
 
+use super::Command;
 use super::course::Moment;
 use super::filter::Responses;
 use crate::model::contact::{clamped_tip, free_tip};
@@ -14,6 +15,18 @@ pub struct Beginning {
     pub reading: usize,
     /// From 0 to 1.
     pub share: f64,
+}
+
+impl Beginning {
+    /// Of a contact that holds beyond a bend (rad): beyond is a larger one where `side` is positive. None where no reading was taken before
+    /// it, or after.
+    #[must_use]
+    pub fn of(commands: &[Command], bend: f64, side: f64) -> Option<Self> {
+        let after = commands.iter().position(|command| side * (command.bend - bend) > 0.0)?;
+        let reading = after.checked_sub(1)?;
+        let [from, to] = [reading, after].map(|k| commands[k].bend);
+        Some(Self { reading, share: ((bend - from) / (to - from)).clamp(0.0, 1.0) })
+    }
 }
 
 /// What a clamp at an arc length (in units of L) adds to the innovations of the readings after it began.

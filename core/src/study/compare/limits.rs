@@ -3,7 +3,7 @@
 use crate::detect::Settings;
 use crate::detect::calibration::bound::{self, Beginning};
 use crate::detect::calibration::course::{Model, Moment, Planner};
-use crate::detect::calibration::{Command, Noise, noise};
+use crate::detect::calibration::{Noise, noise};
 use crate::record::{Entry, Recorder, Truth};
 use crate::scenario::Plan;
 use serde::{Deserialize, Serialize};
@@ -63,10 +63,7 @@ impl Course {
         let length = settings.segment.length;
         let model = Model { length, belief: settings.watching.belief, noise };
         let moments = Planner::all(&model, &commands, false);
-        let beyond = |command: &Command| contact.side * (command.bend - contact.bend) > 0.0;
-        let reading = commands.iter().position(beyond)?.checked_sub(1)?;
-        let [before, after] = [commands[reading].bend, commands[reading + 1].bend];
-        let began = Beginning { reading, share: ((contact.bend - before) / (after - before)).clamp(0.0, 1.0) };
+        let began = Beginning::of(&commands, contact.bend, contact.side)?;
         let held = |(_, truth): &(Entry, Truth)| truth.held.is_some();
         let first = Recorder::new(plan).find(held)?.0.time;
         Some(Self { moments, arrived, length, place: contact.arc_length, began, contact: first })
