@@ -14,6 +14,7 @@ pub mod fonts;
 pub mod helper;
 mod keys;
 pub mod layout;
+pub mod lesson;
 pub mod link;
 pub mod log;
 pub mod memo;
@@ -41,6 +42,8 @@ use embed::Embed;
 use helper::Helper;
 use helper::lent::Lent;
 use layout::Layout;
+use lesson::captions::{self, Captions};
+use lesson::{At, Lesson, Wish};
 use link::Sharing;
 use log::Logs;
 use memo::{Memo, Refusal};
@@ -97,6 +100,8 @@ pub struct App {
     embed: Option<Embed>,
     listener: Option<Listener>,
     logs: Logs,
+    lesson: Lesson,
+    captions: Captions,
     prefers_reduced_motion: bool,
 }
 
@@ -107,6 +112,7 @@ impl App {
         theme::install(ctx);
         let state = State::default();
         ctx.set_theme(state.theme.preference());
+        let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
         let [helper, other] = Lent::two(host.helper);
         let mut app = Self {
             base: state::shipped(state.preset()),
@@ -122,13 +128,15 @@ impl App {
             stages: StageState::default(),
             source: None,
             logs: Logs::new(host.log_helper),
+            lesson: Lesson::default(),
+            captions: Captions::new(untouched),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
             embed: host.embed,
             listener: host.hosted.then(Listener::default),
         };
-        // Nothing moves there that playback would show.
-        app.state.playing = host.embed != Some(Embed::Tuning);
+        // Nothing moves in the tuning that playback would show, and what moves by itself is not welcome to all.
+        app.state.playing = host.embed != Some(Embed::Tuning) && !(untouched && host.prefers_reduced_motion);
         app.go(&host.fragment);
         app
     }
@@ -203,6 +211,10 @@ impl App {
         if ui.ctx().current_pass_index() == 0 {
             let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
             keys::read(ui, self.end(), self.state.stage, covered, &mut out);
+            if let Some(step) = self.lesson.due.take() {
+                out.push(Command::Lesson(Wish::Tour(step)));
+            }
+            self.captions.go_on(self.state.playing, captions::touched(ui));
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
@@ -218,6 +230,7 @@ impl App {
             // Views were drawn before the controls were read: draw this frame again, with the new run.
             ui.ctx().request_discard("the scenario has changed");
         }
+        self.observe();
         self.tell(ui);
         self.take_picture(ui.ctx());
         self.tell_host();
@@ -274,6 +287,7 @@ impl App {
         if time < end {
             self.state.time = time;
         } else if self.state.looping {
+            self.captions.end();
             self.state.time = self.memo.lead_in();
         } else {
             self.state.time = end;
@@ -295,7 +309,7 @@ impl App {
         let banner = self.logs.banner(self.memo.recorded());
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
-        let layout = Layout::new(page, sheet, self.embed);
+        let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
@@ -317,6 +331,8 @@ impl App {
             embed,
             listener: _,
             logs,
+            lesson,
+            captions,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -333,6 +349,7 @@ impl App {
         }
         if embed.is_none() {
             panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+            lesson::menu::menu(ui, layout.tools, (lesson, state.lesson.is_some()), out);
         }
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
@@ -343,10 +360,19 @@ impl App {
             let inputs = Inputs { state, base, notes, refusal, log, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
         }
+        let plate = state.lesson == Some(At::Tour(0)) && layout.transport.is_none();
+        if let Some(rect) = layout.lesson {
+            let panel = layout.controls.is_some();
+            let inputs = lesson::card::Inputs { state, base, notes, lesson, panel, touch: layout.sheet };
+            layout::card(ui, "lesson", rect, |ui| lesson::card::card(ui, rect, &inputs, out));
+        }
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
-        if robot {
+        if let Some(rect) = layout.view.filter(|_| plate) {
+            layout::card(ui, "plate", rect, |ui| lesson::plate::view::plate(ui, rect, lesson.plate(), out));
+        } else if robot {
             if let Some(rect) = layout.view {
+                view.captions = captions.at(run, cursor);
                 layout::card(ui, "view", rect, |ui| {
                     viewport::viewport(
                         ui,

@@ -5,6 +5,7 @@
 mod contact;
 mod detectors;
 mod embed;
+mod lesson;
 mod links;
 mod logs;
 mod painted;

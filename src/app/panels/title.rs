@@ -38,7 +38,7 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 /// Width that [`tools`] takes, points.
 #[must_use]
 pub fn tools_width(sheet: bool) -> f32 {
-    if sheet { 158.0 } else { 120.0 }
+    if sheet { 196.0 } else { 158.0 }
 }
 
 /// Shows sharing, theme and help; `sheet` asks for the button that opens the controls.
@@ -128,7 +128,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 }
 
 /// A choice with what it shows or does; returns whether it was clicked.
-pub(super) fn item(ui: &mut Ui, role: Role, texts: (&str, &str), chosen: bool, theme: &Theme) -> bool {
+pub(in crate::app) fn item(ui: &mut Ui, role: Role, texts: (&str, &str), chosen: bool, theme: &Theme) -> bool {
     choice(ui, role, texts, chosen, theme).clicked()
 }
 
