@@ -49,6 +49,7 @@ use log::Logs;
 use memo::{Memo, Refusal};
 use message::Listener;
 use panels::chip::Chip;
+use panels::gallery::Gallery;
 use stages::StageState;
 use stages::comparer::Comparer;
 use stages::source::Source;
@@ -80,6 +81,8 @@ pub struct Host {
     pub embed: Option<Embed>,
     /// Whether a host page listens, see [`message`].
     pub hosted: bool,
+    /// How far the person had come in the lessons, as [`link::Effect::Keep`] said; none where that cannot be kept.
+    pub progress: Option<String>,
 }
 
 /// The whole page.
@@ -102,6 +105,7 @@ pub struct App {
     logs: Logs,
     lesson: Lesson,
     captions: Captions,
+    gallery: Gallery,
     prefers_reduced_motion: bool,
 }
 
@@ -128,8 +132,9 @@ impl App {
             stages: StageState::default(),
             source: None,
             logs: Logs::new(host.log_helper),
-            lesson: Lesson::default(),
+            lesson: Lesson::new(host.progress),
             captions: Captions::new(untouched),
+            gallery: Gallery::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
             embed: host.embed,
@@ -177,6 +182,8 @@ impl App {
         self.studies.progress().is_some()
             || self.tuner.progress().is_some()
             || self.comparer.progress().is_some()
+            || self.gallery.is_working()
+            || self.lesson.is_measuring(self.state.lesson)
             || self.state.stage == Stage::Robot && self.memo.placed().is_working()
     }
 
@@ -209,12 +216,13 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
+            // Before the keys are taken.
+            self.captions.go_on(self.state.playing, captions::touched(ui));
             let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
             keys::read(ui, self.end(), self.state.stage, covered, &mut out);
             if let Some(step) = self.lesson.due.take() {
                 out.push(Command::Lesson(Wish::Tour(step)));
             }
-            self.captions.go_on(self.state.playing, captions::touched(ui));
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
@@ -231,6 +239,7 @@ impl App {
             ui.ctx().request_discard("the scenario has changed");
         }
         self.observe();
+        self.keep_progress();
         self.tell(ui);
         self.take_picture(ui.ctx());
         self.tell_host();
@@ -255,6 +264,9 @@ impl App {
         self.tuner.update(on(Stage::Tuning), self.state.tuning.repeats, moving);
         self.comparer.update(on(Stage::Detectors), &self.state.tuning, moving);
         let frame = ui.input(|input| input.stable_dt);
+        if ui.ctx().current_pass_index() == 0 && self.challenge(moving) {
+            ui.ctx().request_repaint();
+        }
         if ui.ctx().current_pass_index() == 0 && (self.tuner.work(frame) | self.comparer.work()) {
             ui.ctx().request_repaint();
         }
@@ -333,6 +345,7 @@ impl App {
             logs,
             lesson,
             captions,
+            gallery,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -342,7 +355,7 @@ impl App {
             panels::log::banner(ui, top, banner, out);
         }
         if let Some(rect) = layout.title {
-            panels::title::title(ui, rect, state, out);
+            panels::title::title(ui, rect, state, gallery, out);
         }
         if let Some(rect) = layout.views {
             panels::views::views(ui, rect, state.stage, state.paper, out);
@@ -364,7 +377,10 @@ impl App {
         if let Some(rect) = layout.lesson {
             let panel = layout.controls.is_some();
             let inputs = lesson::card::Inputs { state, base, notes, lesson, panel, touch: layout.sheet };
-            layout::card(ui, "lesson", rect, |ui| lesson::card::card(ui, rect, &inputs, out));
+            layout::card(ui, "lesson", rect, |ui| match state.lesson {
+                Some(At::Tour(_)) => lesson::card::card(ui, rect, &inputs, out),
+                _ => lesson::challenge::card::card(ui, rect, &inputs, out),
+            });
         }
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();

@@ -6,15 +6,19 @@
 mod apply;
 pub mod captions;
 pub mod card;
+pub mod challenge;
 pub mod menu;
 pub mod plate;
+pub mod progress;
 pub mod tour;
 
 use serde::{Deserialize, Serialize};
 
 use crate::app::memo::recorded::Recorded;
 use crate::app::state::State;
+use challenge::check::{Check, Verdict};
 use plate::Plate;
+use progress::Progress;
 use tour::STEPS;
 
 /// Where one is in the lessons.
@@ -23,6 +27,10 @@ use tour::STEPS;
 pub enum At {
     /// At a step of the tour, from 0.
     Tour(usize),
+    /// Choosing a challenge.
+    Challenges,
+    /// At a challenge, from 0.
+    Challenge(usize),
 }
 
 /// What is wished of the lessons.
@@ -30,6 +38,16 @@ pub enum At {
 pub enum Wish {
     /// Go to a step of the tour, from 0.
     Tour(usize),
+    /// Choose a challenge.
+    Challenges,
+    /// Begin a challenge, from 0.
+    Challenge(usize),
+    /// Show the challenge's hint, or hide it.
+    UnfoldHint,
+    /// Show its worked answer, or hide it.
+    UnfoldAnswer,
+    /// Do what the answer says.
+    ShowAnswer,
     /// Leave, and go back to what was set before.
     Leave,
     /// Leave, and keep what is set now.
@@ -49,9 +67,15 @@ pub struct Lesson {
     began: Option<Option<f64>>,
     /// The steps that are done.
     done: [bool; STEPS],
-    /// The step that the tour goes on with.
-    resume: usize,
+    /// How far the person has come.
+    progress: Progress,
+    /// The same as the surroundings keep it; none where they keep nothing.
+    kept_as: Option<String>,
     plate: Plate,
+    /// Whether the open challenge is met.
+    pub(super) check: Check,
+    /// Whether its hint and its answer are shown.
+    unfolded: (bool, bool),
 }
 
 /// What was set before the lessons.
@@ -62,16 +86,47 @@ pub(super) struct Kept {
 }
 
 impl Lesson {
+    /// As the surroundings have kept it; none where they keep nothing.
+    #[must_use]
+    pub fn new(kept: Option<String>) -> Self {
+        let progress = kept.as_deref().map(Progress::read).unwrap_or_default();
+        Self { kept_as: kept.map(|_| progress.text()), progress, ..Self::default() }
+    }
+
     /// The step that the tour goes on with, from 0.
     #[must_use]
     pub fn resume(&self) -> usize {
-        self.resume
+        self.progress.tour - 1
     }
 
     /// Whether a step has been done.
     #[must_use]
     pub fn is_done(&self, step: usize) -> bool {
         self.done.get(step).copied().unwrap_or(false)
+    }
+
+    /// Whether a challenge has been met, by its name.
+    #[must_use]
+    pub fn is_met(&self, key: &str) -> bool {
+        self.progress.met.contains(key)
+    }
+
+    /// Whether the surroundings keep how far the person has come.
+    #[must_use]
+    pub fn is_kept(&self) -> bool {
+        self.kept_as.is_some()
+    }
+
+    /// Whether runs of a challenge that is open are to be made.
+    #[must_use]
+    pub fn is_measuring(&self, at: Option<At>) -> bool {
+        matches!(at, Some(At::Challenge(_))) && self.check.is_working()
+    }
+
+    /// What is known of the open challenge.
+    #[must_use]
+    pub fn verdict(&self) -> Option<Verdict> {
+        self.check.verdict()
     }
 
     /// The plate of the first step.

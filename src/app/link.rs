@@ -70,6 +70,8 @@ pub enum Effect {
     Open(String),
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
+    /// How far the person has come in the lessons is to be kept on this machine; see [`Host::progress`](super::Host::progress).
+    Keep(String),
     /// The host page is to be told this, JSON; see [`App::request`].
     Post(String),
     /// The person is to choose a log, which comes in by [`App::log_chosen`].

@@ -2,6 +2,8 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
+mod captions;
+mod challenges;
 mod contact;
 mod detectors;
 mod embed;

@@ -1,13 +1,16 @@
 //! Going through the lessons: the page is put where they begin, looked at, and put back.
 
 use super::card;
-use super::tour::{STEPS, TOUR};
+use super::challenge::check::Verdict;
+use super::challenge::{self, CHALLENGES};
+use super::tour::{Focus, STEPS, TOUR};
 use super::{At, Kept, Wish};
 use crate::app::App;
 use crate::app::command::Command;
 use crate::app::controls::control::Group;
 use crate::app::controls::table::GROUPS;
 use crate::app::layout::Layout;
+use crate::app::link::Effect;
 use crate::app::state::{self, State};
 use centrode_core::detect::Method;
 
@@ -62,6 +65,15 @@ impl App {
     pub(in crate::app) fn wish_of_lesson(&mut self, ctx: &egui::Context, wish: Wish) {
         match wish {
             Wish::Tour(step) => self.enter(ctx, At::Tour(step.min(STEPS - 1))),
+            Wish::Challenges => self.enter(ctx, At::Challenges),
+            Wish::Challenge(which) => self.enter(ctx, At::Challenge(which.min(CHALLENGES.len() - 1))),
+            Wish::UnfoldHint => self.lesson.unfolded.0 ^= true,
+            Wish::UnfoldAnswer => self.lesson.unfolded.1 ^= true,
+            Wish::ShowAnswer => {
+                if let Some(At::Challenge(which)) = self.state.lesson {
+                    self.apply(ctx, &mut (CHALLENGES[which].show)());
+                }
+            }
             Wish::Leave => self.leave_lesson(),
             Wish::Keep => {
                 self.lesson.kept = None;
@@ -80,11 +92,21 @@ impl App {
         self.base = state::shipped(self.state.preset());
         self.load(self.base.clone());
         self.lesson.began = None;
-        let At::Tour(step) = at;
-        self.lesson.resume = step;
-        let mut commands: Vec<Command> = (TOUR[step].begin)();
-        commands.extend(self.unfold(TOUR[step].controls));
+        self.lesson.unfolded = (false, false);
+        let (begin, controls) = match at {
+            At::Tour(step) => {
+                self.lesson.progress.tour = step + 1;
+                (TOUR[step].begin, TOUR[step].controls)
+            }
+            At::Challenge(which) => (CHALLENGES[which].begin, CHALLENGES[which].controls),
+            At::Challenges => return,
+        };
+        let mut commands: Vec<Command> = begin();
+        commands.extend(self.unfold(controls));
         self.apply(ctx, &mut commands);
+        if let At::Challenge(which) = at {
+            self.lesson.check.begin(which, &self.state.scenario);
+        }
     }
 
     /// Folds all groups of controls but those that hold these keys, where there are some.
@@ -112,9 +134,41 @@ impl App {
         }
     }
 
+    /// Makes a run of the open challenge, unless something is being `moved`. Returns whether more are to be made.
+    pub(in crate::app) fn challenge(&mut self, moved: bool) -> bool {
+        let Some(At::Challenge(_)) = self.state.lesson else { return false };
+        self.lesson.check.update(self.memo.plan().scenario());
+        if moved { self.lesson.check.is_working() } else { self.lesson.check.work() }
+    }
+
+    /// The surroundings could not keep how far the person has come.
+    pub fn progress_not_kept(&mut self) {
+        self.lesson.kept_as = None;
+    }
+
+    /// Hands out how far the person has come, where it is kept and has changed.
+    pub(in crate::app) fn keep_progress(&mut self) {
+        if let Some(kept) = &mut self.lesson.kept_as {
+            let now = self.lesson.progress.text();
+            if *kept != now {
+                kept.clone_from(&now);
+                self.sharing.hand_out(Effect::Keep(now));
+            }
+        }
+    }
+
     /// Notices what has been done.
     pub(in crate::app) fn observe(&mut self) {
-        let Some(At::Tour(step)) = self.state.lesson else { return };
+        let step = match self.state.lesson {
+            Some(At::Tour(step)) => step,
+            Some(At::Challenge(which)) => {
+                if let Some(Verdict::Measured(true, _)) = self.lesson.verdict() {
+                    self.lesson.progress.met.insert(CHALLENGES[which].key.into());
+                }
+                return;
+            }
+            _ => return,
+        };
         let run = self.memo.run();
         let time = self.cursor();
         let detection = run.detection().map(|detection| detection.time);
@@ -129,7 +183,7 @@ impl App {
 impl App {
     /// Makes room for the card where a lesson is open.
     pub(in crate::app) fn lay_out(&self, ui: &egui::Ui, layout: Layout) -> Layout {
-        let Some(At::Tour(step)) = self.state.lesson else { return layout };
+        let Some(at) = self.state.lesson.filter(|_| self.embed.is_none()) else { return layout };
         let inputs = card::Inputs {
             state: &self.state,
             base: &self.base,
@@ -138,6 +192,12 @@ impl App {
             panel: layout.controls.is_some(),
             touch: layout.sheet,
         };
-        layout.with_lesson(card::height(ui, layout.lesson_width(), &inputs), TOUR[step].focus)
+        let width = layout.lesson_width();
+        let (need, focus) = match at {
+            At::Tour(step) => (card::height(ui, width, &inputs), TOUR[step].focus),
+            At::Challenge(which) => (challenge::card::height(ui, width, &inputs), CHALLENGES[which].focus),
+            At::Challenges => (challenge::card::height(ui, width, &inputs), Focus::Robot),
+        };
+        layout.with_lesson(need, focus)
     }
 }

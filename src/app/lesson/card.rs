@@ -14,8 +14,8 @@ use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
 use centrode_core::scenario::Scenario;
 use egui::{
-    Align2, CursorIcon, Galley, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui, WidgetInfo,
-    pos2, vec2,
+    Align2, CursorIcon, Galley, Pos2, Rect, Response, Role, ScrollArea, Sense, Shape, Stroke, StrokeKind, Ui,
+    WidgetInfo, pos2, vec2,
 };
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -23,12 +23,12 @@ use std::sync::Arc;
 /// Space at the card's edges, points.
 pub(super) const PAD: f32 = 14.0;
 /// Height of the line above the title and of the bar below, points.
-const HEAD: f32 = 34.0;
-const FOOT: f32 = 48.0;
+pub(super) const HEAD: f32 = 34.0;
+pub(super) const FOOT: f32 = 48.0;
 /// Width that the sign before a task takes.
 const SIGN: f32 = 26.0;
 /// Size of the text, points.
-const SIZE: f32 = 13.5;
+pub(super) const SIZE: f32 = 13.5;
 
 /// What the card is drawn from.
 pub struct Inputs<'a> {
@@ -51,16 +51,17 @@ impl Inputs<'_> {
     fn step(&self) -> Option<(usize, &'static Step)> {
         match self.state.lesson? {
             At::Tour(step) => Some((step, TOUR.get(step)?)),
+            _ => None,
         }
     }
 
     /// Keys of the controls that the page does not show elsewhere.
-    fn controls(&self, step: &Step) -> impl Iterator<Item = &'static str> {
+    fn hidden(&self, keys: &'static [&'static str]) -> impl Iterator<Item = &'static str> {
         let shown = |key: &str| {
             let group = GROUPS.iter().find(|group| group.holds(key));
             self.panel && group.is_some_and(|group| !self.state.folded.contains(group.name))
         };
-        step.controls.iter().copied().filter(move |key| !shown(key))
+        keys.iter().copied().filter(move |key| !shown(key))
     }
 }
 
@@ -80,14 +81,20 @@ pub fn height(ui: &Ui, width: f32, inputs: &Inputs<'_>) -> f32 {
     let inner = width - 2.0 * PAD;
     let high = |said: &str, width: f32| set_text(ui, said, width, SIZE, ink).size().y;
     let task = high(step.task, inner - SIGN - 10.0).max(high(step.noticed, inner - SIGN - 10.0));
+    let rows = rows(inputs, step.controls);
+    HEAD + 28.0 + high(step.text, inner) + 10.0 + task + 18.0 + rows + FOOT + 6.0
+}
+
+/// How high the controls are that the card shows, with the space above them, points.
+pub(super) fn rows(inputs: &Inputs<'_>, keys: &'static [&'static str]) -> f32 {
     let row = |key| match (control(key).is_some(), inputs.touch) {
         (true, true) => 67.0,
         (true, false) => 48.0,
         (false, true) => 66.0,
         (false, false) => 58.0,
     };
-    let rows: f32 = inputs.controls(step).map(row).sum();
-    HEAD + 28.0 + high(step.text, inner) + 10.0 + task + 18.0 + rows + if rows > 0.0 { 8.0 } else { 0.0 } + FOOT + 6.0
+    let rows: f32 = inputs.hidden(keys).map(row).sum();
+    if rows > 0.0 { rows + 8.0 } else { 0.0 }
 }
 
 /// Shows the card.
@@ -108,15 +115,19 @@ pub fn card(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, out: &mut Vec<Command>
                 written(ui, said, step.text, Role::Label);
                 ui.add_space(10.0);
                 task(ui, step, inputs.lesson.is_done(place), &theme);
-                let keys: Vec<_> = inputs.controls(step).collect();
-                if !keys.is_empty() {
-                    ui.add_space(8.0);
-                    keys.into_iter().for_each(|key| one_control(ui, key, inputs, out));
-                }
+                controls(ui, inputs, step.controls, out);
             });
         });
     });
-    foot(ui, rect, place, inputs, out);
+    let last = place + 1 == STEPS;
+    let on = if last { Wish::Leave } else { Wish::Tour(place + 1) };
+    let back = place.checked_sub(1);
+    let way = Way {
+        next: (if last { "Finish" } else { "Next" }, on, inputs.lesson.is_done(place)),
+        back: back.map(|step| ("Back", Wish::Tour(step))),
+        keep: back.is_some(),
+    };
+    foot(ui, rect, &way, out);
 }
 
 /// Paints a text where the layout goes on, with what it is to assistive technology.
@@ -147,11 +158,26 @@ fn head(ui: &mut Ui, rect: Rect, (place, step): (usize, &Step), inputs: &Inputs<
         ui.painter().circle_filled(dot, if other == place { 2.5 } else { radius }, color);
         dot.x += 12.0;
     }
+    leave(ui, line, "Leave tour", out);
+}
+
+/// The way out, at the right end of a line.
+pub(super) fn leave(ui: &mut Ui, line: Rect, name: &str, out: &mut Vec<Command>) {
     let corner = Rect::from_center_size(line.right_center() - vec2(22.0, -2.0), vec2(30.0, 30.0));
-    let close = ui.push_id("leave", |ui| icon::button(ui, corner, Icon::Close, "Leave tour", Look::Plain)).inner;
-    if close.clicked() {
+    if ui.push_id("leave", |ui| icon::button(ui, corner, Icon::Close, name, Look::Plain)).inner.clicked() {
         out.push(Command::Lesson(Wish::Leave));
     }
+}
+
+/// A circle, with a tick once something is done.
+pub(super) fn sign(ui: &Ui, at: Pos2, done: bool, theme: &Theme) {
+    if !done {
+        ui.painter().circle_stroke(at, 7.0, Stroke::new(2.0, theme.accent));
+        return;
+    }
+    ui.painter().circle_filled(at, 8.0, theme.sensor);
+    let tick = [(-3.6, 0.2), (-1.0, 2.9), (3.8, -2.9)].map(|(x, y)| at + vec2(x, y));
+    ui.painter().add(Shape::line(tick.to_vec(), Stroke::new(2.0, theme.panel)));
 }
 
 /// What is to be done; once it is done, what that has shown.
@@ -163,19 +189,20 @@ fn task(ui: &mut Ui, step: &Step, done: bool, theme: &Theme) {
     let (rect, response) = ui.allocate_exact_size(vec2(width, high), Sense::hover());
     let color = if done { theme.sensor } else { theme.accent };
     ui.painter().rect(rect, 8.0, theme.raised, Stroke::new(1.0, color.gamma_multiply(0.6)), StrokeKind::Inside);
-    let sign = pos2(rect.left() + 15.0, rect.top() + 7.0 + 0.72 * SIZE);
-    if done {
-        ui.painter().circle_filled(sign, 8.0, color);
-        let tick = [(-3.6, 0.2), (-1.0, 2.9), (3.8, -2.9)].map(|(x, y)| sign + vec2(x, y));
-        ui.painter().add(Shape::line(tick.to_vec(), Stroke::new(2.0, theme.panel)));
-    } else {
-        ui.painter().circle_stroke(sign, 7.0, Stroke::new(2.0, color));
-    }
+    sign(ui, pos2(rect.left() + 15.0, rect.top() + 7.0 + 0.72 * SIZE), done, theme);
     let (said, galley) = if done { (step.noticed, noticed) } else { (step.task, task) };
     ui.painter().galley(rect.min + vec2(SIGN + 4.0, 7.0), galley, theme.ink);
     let heard = if done { format!("Done. {said}") } else { format!("To do: {said}") };
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &heard));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));
+}
+
+/// Shows the controls that the page does not show elsewhere.
+pub(super) fn controls(ui: &mut Ui, inputs: &Inputs<'_>, keys: &'static [&'static str], out: &mut Vec<Command>) {
+    if rows(inputs, keys) > 0.0 {
+        ui.add_space(8.0);
+        inputs.hidden(keys).for_each(|key| one_control(ui, key, inputs, out));
+    }
 }
 
 fn one_control(ui: &mut Ui, key: &'static str, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
@@ -191,21 +218,32 @@ fn one_control(ui: &mut Ui, key: &'static str, inputs: &Inputs<'_>, out: &mut Ve
     });
 }
 
-fn foot(ui: &mut Ui, rect: Rect, place: usize, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+/// Where the buttons below lead.
+pub(super) struct Way<'a> {
+    /// Word, where to, and whether it stands out.
+    pub next: (&'a str, Wish, bool),
+    /// Word and where to.
+    pub back: Option<(&'a str, Wish)>,
+    /// Whether what is set can be kept.
+    pub keep: bool,
+}
+
+pub(super) fn foot(ui: &mut Ui, rect: Rect, way: &Way<'_>, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let bar = Rect::from_min_max(pos2(rect.left() + PAD, rect.bottom() - FOOT + 4.0), rect.max - vec2(PAD, 8.0));
-    let last = place + 1 == STEPS;
-    let next = if last { "Finish" } else { "Next" };
+    let (next, on, prominent) = way.next;
     let right = bar.with_min_x(bar.right() - 96.0);
-    if on_accent(ui, right, next, inputs.lesson.is_done(place), &theme) {
-        out.push(Command::Lesson(if last { Wish::Leave } else { Wish::Tour(place + 1) }));
+    if on_accent(ui, right, next, prominent, &theme) {
+        out.push(Command::Lesson(on));
     }
     let left = bar.with_max_x(bar.left() + 74.0);
-    if place > 0 && button(ui, left, "Back", &theme) {
-        out.push(Command::Lesson(Wish::Tour(place - 1)));
+    if let Some((word, back)) = way.back
+        && button(ui, left, word, &theme)
+    {
+        out.push(Command::Lesson(back));
     }
     let middle = Rect::from_min_size(pos2(left.right() + 8.0, bar.top()), vec2(84.0, bar.height()));
-    if middle.right() < right.left() - 4.0 && place > 0 && button(ui, middle, "Keep this", &theme) {
+    if middle.right() < right.left() - 4.0 && way.keep && button(ui, middle, "Keep this", &theme) {
         out.push(Command::Lesson(Wish::Keep));
     }
 }

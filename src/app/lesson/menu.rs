@@ -1,5 +1,6 @@
 //! The menu by which the lessons are entered.
 
+use super::challenge::CHALLENGES;
 use super::tour::{STEPS, TOUR};
 use super::{Lesson, Wish};
 use crate::app::command::Command;
@@ -32,5 +33,8 @@ pub fn menu(ui: &mut Ui, tools: Rect, (lesson, open): (&Lesson, bool), out: &mut
         }
         let about = format!("What a centrode is and how it gives a contact away, in {STEPS} steps. What is set here comes back afterwards.");
         offer(ui, if resume > 0 { "Tour from the start" } else { "Tour" }, &about, Wish::Tour(0));
+        let met = CHALLENGES.iter().filter(|of| lesson.is_met(of.key)).count();
+        let about = format!("{} exercises with a goal that the page measures. {met} met so far.", CHALLENGES.len());
+        offer(ui, "Challenges", &about, Wish::Challenges);
     });
 }

@@ -45,7 +45,7 @@ pub enum Focus {
 }
 
 /// Loads a preset, stops at a time (s), and shows the plots where there is room for one thing only.
-fn at(name: &str, time: f64) -> Vec<Command> {
+pub(super) fn at(name: &str, time: f64) -> Vec<Command> {
     // The names stand in this file, and a test takes every step.
     let chosen = preset::find(name).ok().map(Command::Choose);
     let settled = [Command::Pause, Command::Seek(time), Command::ShowTab(Tab::Plots)];
@@ -76,7 +76,7 @@ pub fn control(key: &str) -> Option<&'static Control> {
     table::control(key)
 }
 
-fn and(mut commands: Vec<Command>, more: impl IntoIterator<Item = Option<Command>>) -> Vec<Command> {
+pub(super) fn and(mut commands: Vec<Command>, more: impl IntoIterator<Item = Option<Command>>) -> Vec<Command> {
     commands.extend(more.into_iter().flatten());
     commands
 }
