@@ -118,3 +118,46 @@ fn progress_is_handed_out_and_comes_back() {
         assert!(app(&page).lesson().is_kept() && app(&page).notice().is_none(), "{garbled}");
     }
 }
+
+/// Pictures, to be looked at.
+#[test]
+fn probe() {
+    use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
+    use egui_wgpu::RendererOptions;
+    let Ok(dir) = std::env::var("LESSON_SHOTS") else { return };
+    for (size, name) in [(DESK, "desk"), (PHONE, "phone")] {
+        for (theme, dark) in [(egui::Theme::Dark, "dark"), (egui::Theme::Light, "light")] {
+            let gpu = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+            let renderer = WgpuTestRenderer::from_render_state(gpu.clone());
+            let mut page = crate::support::paused(crate::support::build(
+                Harness::builder().with_size(size).renderer(renderer),
+                Some(gpu),
+            ));
+            crate::support::choose_theme(&mut page, theme);
+            let shot = |page: &mut Page, what: &str| {
+                page.remove_cursor();
+                page.run_steps(2);
+                page.render().unwrap().save(format!("{dir}/ch-{name}-{dark}-{what}.png")).unwrap();
+            };
+            click(&mut page, "Learn");
+            shot(&mut page, "menu");
+            page.get_by_role_and_label(Role::MenuItem, "Challenges").click();
+            page.run_steps(3);
+            shot(&mut page, "list");
+            for k in [0, 2, 5] {
+                press(&mut page, CHALLENGES[k].title);
+                finish(&mut page);
+                shot(&mut page, &format!("{k}a"));
+                press(&mut page, "Worked answer");
+                press(&mut page, "Show me");
+                finish(&mut page);
+                shot(&mut page, &format!("{k}b"));
+                press(&mut page, "All");
+            }
+            press(&mut page, "Leave challenges");
+            click(&mut page, "Preset");
+            page.run_steps(30);
+            shot(&mut page, "gallery");
+        }
+    }
+}

@@ -102,11 +102,11 @@ pub static CHALLENGES: [Challenge; 6] = [
     Challenge {
         key: "disk-1",
         title: "Find disk 1",
-        text: "A beam stops disk 1, next to the base. The centrode moves by less than 4 mm, so ξ2 = 7 mm is never exceeded by the contact itself, only by noise as \
+        text: "A beam stops disk 1, next to the base. The centrode moves by less than 4 mm, so ξ2\u{a0}=\u{a0}7 mm is never exceeded by the contact itself, only by noise as \
                the motion comes to rest.",
         goal: "The centrode finds the contact within 0.5 s in 8 of 8 runs, and raises no alarm in 8 runs without contact.",
         hint: "A lower ξ2 finds it. Then look at where the free runs alarm: late, where the segment hardly turns and the measured centrode is nothing but noise. There is a floor for the speed, under Tracker.",
-        answer: "ξ2 = 2.5 mm lies between the floor of a free motion and what disk 1 gives. A speed floor of 0.5 rad/s keeps the method silent while the segment turns too slowly for a centrode to mean anything.",
+        answer: "ξ2\u{a0}=\u{a0}2.5 mm lies between the floor of a free motion and what disk 1 gives. A speed floor of 0.5 rad/s keeps the method silent while the segment turns too slowly for a centrode to mean anything.",
         free: &["detection.", "filter."],
         controls: &["detection.xi2", "detection.min_speed"],
         focus: Focus::Plots,
@@ -131,7 +131,7 @@ pub static CHALLENGES: [Challenge; 6] = [
         text: "On the bench, the centrode finds a contact on disk 2 almost half a second after it began. Anyone can be faster by crying wolf.",
         goal: "The mean delay of the centrode over 8 runs is at most half of what it was, with no more false alarms than before in 8 runs without contact.",
         hint: "Most of the delay is the average filling up. A shorter one is noisier, and the noise matters most where the segment turns slowly.",
-        answer: "N = 200 more than halves the delay. What it adds in false alarms comes as the motion ends; a speed floor of 0.5 rad/s takes them away.",
+        answer: "N\u{a0}=\u{a0}200 more than halves the delay. What it adds in false alarms comes as the motion ends; a speed floor of 0.5 rad/s takes them away.",
         free: &["detection.", "filter."],
         controls: &["filter.length", "detection.xi2", "detection.min_speed"],
         focus: Focus::Plots,
@@ -160,7 +160,7 @@ pub static CHALLENGES: [Challenge; 6] = [
                deviation that errors of the load cells can cause.",
         goal: "Joint forces notice the contact in none of 8 runs, the centrode in all. Only the load cells may be changed.",
         hint: "ξ1 grows with ε_c. If all cells are wrong by the same share, a preload cancels out of it. If each is wrong by itself, it does not.",
-        answer: "With independent errors of 40 % and a preload of 20 N, the bound is so large that no contact exceeds it. The centrode does not ask the load cells: the two methods fail differently, which is why the paper has both.",
+        answer: "With independent errors of 50 % and a preload of 10 N, the bound is so large that no contact exceeds it. The centrode does not ask the load cells: the two methods fail differently, which is why the paper has both.",
         free: &["load_cells."],
         controls: &["load_cells.epsilon_tau", "load_cells.preload", "load_cells.errors"],
         focus: Focus::Plots,
@@ -170,8 +170,8 @@ pub static CHALLENGES: [Challenge; 6] = [
         show: || {
             let changes = [
                 pick("load_cells.errors", "independent"),
-                set("load_cells.preload", 20.0),
-                set("load_cells.epsilon_tau", 0.4),
+                set("load_cells.preload", 10.0),
+                set("load_cells.epsilon_tau", 0.5),
             ];
             and(Vec::new(), changes)
         },
@@ -210,7 +210,7 @@ pub static CHALLENGES: [Challenge; 6] = [
                The model of the contact is exact in this simulation. So what is wrong?",
         goal: "The estimate at the alarm is off by at most 2.5 mm on average, and the contact is still found within 0.5 s in 8 of 8 runs. Only filter and detection may be changed.",
         hint: "The estimate is made at the instant of the alarm. What does the average hold at that instant?",
-        answer: "The average: at the alarm it still holds mostly free motion, so the measured centrode is only part of the way. A later alarm (ξ2 = 10 mm) from a shorter average (N = 200) waits until it has arrived, and is even sooner than before.",
+        answer: "The average: at the alarm it still holds mostly free motion, so the measured centrode is only part of the way. A later alarm (ξ2\u{a0}=\u{a0}10 mm) from a shorter average (N\u{a0}=\u{a0}200) waits until it has arrived, and is even sooner than before.",
         free: &["detection.", "filter."],
         controls: &["filter.length", "detection.xi2"],
         focus: Focus::Robot,

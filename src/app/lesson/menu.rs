@@ -34,7 +34,7 @@ pub fn menu(ui: &mut Ui, tools: Rect, (lesson, open): (&Lesson, bool), out: &mut
         let about = format!("What a centrode is and how it gives a contact away, in {STEPS} steps. What is set here comes back afterwards.");
         offer(ui, if resume > 0 { "Tour from the start" } else { "Tour" }, &about, Wish::Tour(0));
         let met = CHALLENGES.iter().filter(|of| lesson.is_met(of.key)).count();
-        let about = format!("{} exercises with a goal that the page measures. {met} met so far.", CHALLENGES.len());
+        let about = format!("Exercises with a goal that the page measures: {met} of {} met", CHALLENGES.len());
         offer(ui, "Challenges", &about, Wish::Challenges);
     });
 }

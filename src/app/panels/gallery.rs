@@ -56,7 +56,7 @@ impl Gallery {
     }
 
     fn picture(&self, preset: &Preset) -> Option<&Thumb> {
-        let place = PRESETS.iter().position(|other| std::ptr::eq(other, preset))?;
+        let place = PRESETS.iter().position(|other| other.name == preset.name)?;
         self.made.get(place)?.as_ref()
     }
 
@@ -90,7 +90,7 @@ impl Gallery {
                 for (k, (preset, texts)) in row.iter().zip(texts).enumerate() {
                     let at = place.min + vec2(k as f32 * (each + GAP), 0.0);
                     let rect = Rect::from_min_size(at, vec2(each, high));
-                    if self.item(ui, rect, (preset, std::ptr::eq(*preset, chosen)), texts, &theme) {
+                    if self.item(ui, rect, (preset, preset.name == chosen.name), texts, &theme) {
                         out.push(Command::Choose(preset));
                     }
                 }

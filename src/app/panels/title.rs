@@ -108,7 +108,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &
     let response = combo(ui, rect, "Preset", &title, &theme);
 
     let screen = ui.ctx().content_rect();
-    let width = (screen.width() - 40.0).min(900.0);
+    let width = (screen.width() - 56.0).min(900.0);
     gallery.open = false;
     Popup::menu(&response).accessible_name("Presets").width(width).show(|ui| {
         let height = screen.bottom() - rect.bottom() - 40.0;

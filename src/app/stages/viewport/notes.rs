@@ -29,7 +29,9 @@ pub fn notes(
     taken.extend(name_all(ui, &view, &theme, run, scene));
     if !said.is_empty() {
         let seen: Vec<Pos2> = bodies(scene).filter_map(|point| view.at(point)).collect();
-        for caption in said {
+        // Where there is little room, the latest alone.
+        let first = if rect.width() < NARROW { said.len() - 1 } else { 0 };
+        for caption in &said[first..] {
             let Some(anchor) = view.at(caption.anchor).filter(|at| rect.contains(*at)) else { continue };
             taken.extend(captions::paint(ui, rect, (caption, anchor), &taken, &seen));
         }
