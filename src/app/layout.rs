@@ -170,8 +170,7 @@ impl Layout {
         let plots = rest.bottom((page.height() * 0.25).clamp(180.0, 330.0));
         let transport = rest.bottom(FLAT);
         let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
-        let readout = side
-            .bottom((side.0.height() * 0.48).clamp(254.0, 300.0).min((side.0.height() - 165.0).max(readout.height())));
+        let readout = side.bottom((side.0.height() * 0.48).clamp(254.0, 300.0).min(side.0.height() - 130.0));
         Self {
             controls: Some(controls),
             plane: Some(side.0),
@@ -220,7 +219,9 @@ impl Layout {
         let bar = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
-        let title = (0.32 * bar.width()).clamp(150.0, 300.0);
+        // Beside the tools and four views that can be read.
+        let room = bar.width() - tools_width(true) - 2.0 * GAP - 196.0;
+        let title = (0.32 * bar.width()).clamp(150.0, 300.0).min(room.max(110.0));
         Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport).with_lower(side, sheet)
     }
 
@@ -245,7 +246,8 @@ impl Layout {
         }
         if let (Some(plane), Some(readout)) = (self.plane, self.readout) {
             let mut side = Cut(plane.union(readout));
-            let lesson = side.bottom(need.clamp(readout.height(), side.0.height() - 130.0));
+            let most = (side.0.height() - 165.0).max(readout.height());
+            let lesson = side.bottom(need.clamp(readout.height(), most));
             return Self { plane: Some(side.0), readout: None, lesson: Some(lesson), ..self };
         }
         let (Some(view), Some(transport)) = (self.view, self.transport) else { return self };

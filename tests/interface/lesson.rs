@@ -250,6 +250,44 @@ fn the_arrows_of_the_plate_obey_keys_and_assistive_technology() {
     assert!(page.query_by_label_contains("Parallel arrows").is_some());
 }
 
+#[test]
+fn a_log_is_set_aside_and_comes_back() {
+    let mut page = page_of(DESK);
+    let log = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/logs/clean.csv");
+    let bytes = std::fs::read(log).expect("an example");
+    page.state_mut().as_mut().expect("built").opened("clean.csv", Ok(bytes));
+    page.run_steps(2);
+    for _ in 0..1000 {
+        if app(&page).run().is_recorded() {
+            break;
+        }
+        page.step();
+    }
+    let shown = app(&page).run().fingerprint();
+    assert!(app(&page).run().is_recorded());
+    learn(&mut page, "Tour");
+    click(&mut page, "Next");
+    assert!(!app(&page).run().is_recorded());
+    click(&mut page, "Leave tour");
+    assert!(app(&page).run().is_recorded());
+    assert_eq!(app(&page).run().fingerprint(), shown);
+}
+
+#[test]
+fn another_view_can_be_looked_at_in_every_step() {
+    for size in [DESK, PHONE, LOW, TABLET] {
+        for fragment in ["tour=1", "tour=5", "tour=8"] {
+            let mut page = linked(size, fragment);
+            for view in ["Map", "Paper", "Tuning", "Robot"] {
+                page.get_by_role_and_label(Role::Tab, view).click();
+                page.run_steps(3);
+                assert!(page.query_by_label_contains("of 10: ").is_some(), "{size}: {view}");
+                page.check_accessibility();
+            }
+        }
+    }
+}
+
 /// Pictures of all steps, to be looked at.
 #[test]
 fn probe() {

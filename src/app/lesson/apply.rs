@@ -11,6 +11,7 @@ use crate::app::controls::control::Group;
 use crate::app::controls::table::GROUPS;
 use crate::app::layout::Layout;
 use crate::app::link::Effect;
+use crate::app::stages::stage::Stage;
 use crate::app::state::{self, State};
 use centrode_core::detect::Method;
 
@@ -198,6 +199,8 @@ impl App {
             At::Challenge(which) => (challenge::card::height(ui, width, &inputs), CHALLENGES[which].focus),
             At::Challenges => (challenge::card::height(ui, width, &inputs), Focus::Robot),
         };
-        layout.with_lesson(need, focus)
+        // Whoever looks at something else sees that.
+        let elsewhere = focus == Focus::Plate && self.state.stage != Stage::Robot;
+        layout.with_lesson(need, if elsewhere { Focus::Robot } else { focus })
     }
 }

@@ -10,6 +10,8 @@ use egui::{Event, Pos2, Rect, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, 
 
 /// How long the segment bends before that is said, s.
 const BENT: f64 = 0.4;
+/// How far apart places are tried, points.
+const STEP: f32 = 12.0;
 /// The widest that a caption gets, points.
 const WIDTH: f32 = 210.0;
 
@@ -116,13 +118,14 @@ pub fn paint(
 ) -> Option<Rect> {
     let theme = Theme::of(ui);
     let painter = ui.painter_at(view);
-    let width = WIDTH.min(0.5 * view.width());
-    let galley = painter.layout(caption.text.clone(), fonts::strong(13.0), theme.panel, width);
+    let narrow = view.width() < 2.0 * WIDTH;
+    let (width, size) = if narrow { (0.3 * view.width(), 12.0) } else { (WIDTH, 13.0) };
+    let galley = painter.layout(caption.text.clone(), fonts::strong(size), theme.panel, width);
     let size = galley.size() + vec2(20.0, 14.0);
     let inside = view.shrink(6.0);
     let free = |place: &Rect| inside.contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place));
     let clear = |place: &Rect| !bodies.iter().any(|body| place.expand(4.0).contains(*body));
-    let place = around(anchor, size).find(|place| free(place) && clear(place));
+    let place = around(anchor, size).chain(anywhere(anchor, size, inside)).find(|place| free(place) && clear(place));
     let place = place.or_else(|| around(anchor, size).find(free))?;
     let near = pos2(anchor.x.clamp(place.left(), place.right()), anchor.y.clamp(place.top(), place.bottom()));
     painter.add(Shape::line_segment([anchor, near], Stroke::new(1.5, theme.ink)));
@@ -143,6 +146,16 @@ fn around(anchor: Pos2, size: Vec2) -> impl Iterator<Item = Rect> {
             Rect::from_center_size(anchor + vec2(x.signum() * reach.x * x.abs(), y * reach.y), size)
         })
     })
+}
+
+/// Places all over the view, the nearest to an anchor first.
+fn anywhere(anchor: Pos2, size: Vec2, inside: Rect) -> Vec<Rect> {
+    let steps = |room: f32| (0..=(room.max(0.0) / STEP) as u16).map(|k| f32::from(k) * STEP);
+    let down = || steps(inside.height() - size.y);
+    let corners = steps(inside.width() - size.x).flat_map(|x| down().map(move |y| vec2(x, y)));
+    let mut places: Vec<Rect> = corners.map(|corner| Rect::from_min_size(inside.min + corner, size)).collect();
+    places.sort_by(|a, b| a.distance_sq_to_pos(anchor).total_cmp(&b.distance_sq_to_pos(anchor)));
+    places
 }
 
 #[cfg(test)]
