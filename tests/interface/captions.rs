@@ -100,17 +100,3 @@ fn a_link_a_frame_and_the_tour_have_none() {
         assert_eq!(said(&page), [false; 3]);
     }
 }
-
-/// Pictures, to be looked at.
-#[test]
-fn probe() {
-    let Ok(dir) = std::env::var("LESSON_SHOTS") else { return };
-    for (size, name) in [(DESK, "desk"), (crate::support::PHONE, "phone")] {
-        let mut page = opened(Host::default);
-        page.set_size(size);
-        for time in [4.8, 5.95, 6.6] {
-            until(&mut page, time);
-            page.render().unwrap().save(format!("{dir}/caption-{name}-{time}.png")).unwrap();
-        }
-    }
-}

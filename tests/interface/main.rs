@@ -7,6 +7,7 @@ mod challenges;
 mod contact;
 mod detectors;
 mod embed;
+mod gallery;
 mod lesson;
 mod links;
 mod logs;

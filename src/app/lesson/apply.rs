@@ -75,7 +75,13 @@ impl App {
                     self.apply(ctx, &mut (CHALLENGES[which].show)());
                 }
             }
-            Wish::Leave => self.leave_lesson(),
+            Wish::Leave => {
+                // Who leaves at the end has seen it.
+                if self.state.lesson == Some(At::Tour(STEPS - 1)) {
+                    self.lesson.progress.tour = 1;
+                }
+                self.leave_lesson();
+            }
             Wish::Keep => {
                 self.lesson.kept = None;
                 self.state.lesson = None;

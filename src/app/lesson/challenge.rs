@@ -244,7 +244,7 @@ pub static CHALLENGES: [Challenge; 6] = [
         focus: Focus::Plots,
         seeds: 8,
         runs: Runs::AsSet,
-        begin: || and(at("free", 6.0), [pick("detection.detectors", "cusum"), pick("detection.detectors", "jfd")]),
+        begin: || and(at("free", 6.0), ["cusum", "fcd", "jfd"].map(|detector| pick("detection.detectors", detector))),
         show: || and(Vec::new(), [set("calibration.frame[2]", 0.010)]),
         judge: |now, _| {
             let alarms = count(&now.set, |outcome| outcome.contact.is_none() && outcome.first(Method::Cusum).is_some());
