@@ -2,9 +2,9 @@
 
 use crate::harness::{Options, Page, Renderer};
 
-/// Whether a widget's label begins so.
+/// Whether what a widget says begins so.
 fn says(page: &mut Page, start: &str) -> bool {
-    page.widgets().iter().any(|widget| widget.label.starts_with(start))
+    page.widgets().iter().any(|widget| widget.label.starts_with(start) || widget.value.starts_with(start))
 }
 
 #[track_caller]
