@@ -13,6 +13,9 @@ pub const NEAR: f64 = 0.1;
 /// Two directions that differ by less than this (the sine of their angle) are parallel.
 const PARALLEL: f64 = 1e-6;
 
+/// Both points stay so far apart.
+const APART: f64 = 0.2;
+
 /// What is done to the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Move {
@@ -110,7 +113,11 @@ impl Plate {
             }
             Move::Carry(which @ 0..=1, to) if to.is_finite() => {
                 let edge = HALF - DVec2::splat(0.08);
-                self.points[which] = to.clamp(-edge, edge);
+                let to = to.clamp(-edge, edge);
+                // One point gives one velocity only.
+                if to.distance(self.points[1 - which]) >= APART {
+                    self.points[which] = to;
+                }
             }
             _ => {}
         }
