@@ -14,6 +14,7 @@ pub mod fonts;
 pub mod helper;
 mod keys;
 pub mod layout;
+pub mod lesson;
 pub mod link;
 pub mod log;
 pub mod memo;
@@ -41,11 +42,14 @@ use embed::Embed;
 use helper::Helper;
 use helper::lent::Lent;
 use layout::Layout;
+use lesson::captions::{self, Captions};
+use lesson::{At, Lesson, Wish};
 use link::Sharing;
 use log::Logs;
 use memo::{Memo, Refusal};
 use message::Listener;
 use panels::chip::Chip;
+use panels::gallery::Gallery;
 use stages::StageState;
 use stages::comparer::Comparer;
 use stages::source::Source;
@@ -77,6 +81,8 @@ pub struct Host {
     pub embed: Option<Embed>,
     /// Whether a host page listens, see [`message`].
     pub hosted: bool,
+    /// How far the person had come in the lessons, as [`link::Effect::Keep`] said; none where that cannot be kept.
+    pub progress: Option<String>,
 }
 
 /// The whole page.
@@ -97,6 +103,9 @@ pub struct App {
     embed: Option<Embed>,
     listener: Option<Listener>,
     logs: Logs,
+    lesson: Lesson,
+    captions: Captions,
+    gallery: Gallery,
     prefers_reduced_motion: bool,
 }
 
@@ -107,6 +116,7 @@ impl App {
         theme::install(ctx);
         let state = State::default();
         ctx.set_theme(state.theme.preference());
+        let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
         let [helper, other] = Lent::two(host.helper);
         let mut app = Self {
             base: state::shipped(state.preset()),
@@ -122,13 +132,16 @@ impl App {
             stages: StageState::default(),
             source: None,
             logs: Logs::new(host.log_helper),
+            lesson: Lesson::new(host.progress),
+            captions: Captions::new(untouched),
+            gallery: Gallery::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
             embed: host.embed,
             listener: host.hosted.then(Listener::default),
         };
-        // Nothing moves there that playback would show.
-        app.state.playing = host.embed != Some(Embed::Tuning);
+        // Nothing moves in the tuning that playback would show, and what moves by itself is not welcome to all.
+        app.state.playing = host.embed != Some(Embed::Tuning) && !(untouched && host.prefers_reduced_motion);
         app.go(&host.fragment);
         app
     }
@@ -169,6 +182,8 @@ impl App {
         self.studies.progress().is_some()
             || self.tuner.progress().is_some()
             || self.comparer.progress().is_some()
+            || self.gallery.is_working()
+            || self.lesson.is_measuring(self.state.lesson)
             || self.state.stage == Stage::Robot && self.memo.placed().is_working()
     }
 
@@ -201,8 +216,13 @@ impl App {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
+            // Before the keys are taken.
+            self.captions.go_on(self.state.playing, captions::touched(ui));
             let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
             keys::read(ui, self.end(), self.state.stage, covered, &mut out);
+            if let Some(step) = self.lesson.due.take() {
+                out.push(Command::Lesson(Wish::Tour(step)));
+            }
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
@@ -218,6 +238,8 @@ impl App {
             // Views were drawn before the controls were read: draw this frame again, with the new run.
             ui.ctx().request_discard("the scenario has changed");
         }
+        self.observe();
+        self.keep_progress();
         self.tell(ui);
         self.take_picture(ui.ctx());
         self.tell_host();
@@ -242,6 +264,9 @@ impl App {
         self.tuner.update(on(Stage::Tuning), self.state.tuning.repeats, moving);
         self.comparer.update(on(Stage::Detectors), &self.state.tuning, moving);
         let frame = ui.input(|input| input.stable_dt);
+        if ui.ctx().current_pass_index() == 0 && self.challenge(moving) {
+            ui.ctx().request_repaint();
+        }
         if ui.ctx().current_pass_index() == 0 && (self.tuner.work(frame) | self.comparer.work()) {
             ui.ctx().request_repaint();
         }
@@ -274,6 +299,7 @@ impl App {
         if time < end {
             self.state.time = time;
         } else if self.state.looping {
+            self.captions.end();
             self.state.time = self.memo.lead_in();
         } else {
             self.state.time = end;
@@ -295,7 +321,7 @@ impl App {
         let banner = self.logs.banner(self.memo.recorded());
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
-        let layout = Layout::new(page, sheet, self.embed);
+        let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
         let cursor = self.cursor();
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
@@ -317,6 +343,9 @@ impl App {
             embed,
             listener: _,
             logs,
+            lesson,
+            captions,
+            gallery,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -326,13 +355,14 @@ impl App {
             panels::log::banner(ui, top, banner, out);
         }
         if let Some(rect) = layout.title {
-            panels::title::title(ui, rect, state, out);
+            panels::title::title(ui, rect, state, gallery, out);
         }
         if let Some(rect) = layout.views {
             panels::views::views(ui, rect, state.stage, state.paper, out);
         }
         if embed.is_none() {
             panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+            lesson::menu::menu(ui, layout.tools, (lesson, state.lesson.is_some()), out);
         }
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
@@ -343,10 +373,22 @@ impl App {
             let inputs = Inputs { state, base, notes, refusal, log, touch: layout.sheet };
             layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
         }
+        let plate = state.lesson == Some(At::Tour(0)) && layout.transport.is_none();
+        if let Some(rect) = layout.lesson {
+            let panel = layout.controls.is_some();
+            let inputs = lesson::card::Inputs { state, base, notes, lesson, panel, touch: layout.sheet };
+            layout::card(ui, "lesson", rect, |ui| match state.lesson {
+                Some(At::Tour(_)) => lesson::card::card(ui, rect, &inputs, out),
+                _ => lesson::challenge::card::card(ui, rect, &inputs, out),
+            });
+        }
         let robot = state.stage == Stage::Robot;
         let covered = layout.stage();
-        if robot {
+        if let Some(rect) = layout.view.filter(|_| plate) {
+            layout::card(ui, "plate", rect, |ui| lesson::plate::view::plate(ui, rect, lesson.plate(), out));
+        } else if robot {
             if let Some(rect) = layout.view {
+                view.captions = captions.at(run, cursor);
                 layout::card(ui, "view", rect, |ui| {
                     viewport::viewport(
                         ui,

@@ -23,7 +23,7 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment, embed, hosted }`.
+    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment, embed, progress, hosted }`.
     pub type Options;
     /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
     #[wasm_bindgen(method, getter)]
@@ -46,6 +46,9 @@ extern "C" {
     /// What of the page is shown, by the name of an `app::embed::Embed`; anything else for all of it.
     #[wasm_bindgen(method, getter)]
     fn embed(this: &Options) -> String;
+    /// How far the person had come in the lessons; undefined where that cannot be kept.
+    #[wasm_bindgen(method, getter)]
+    fn progress(this: &Options) -> Option<String>;
     /// Whether a host page listens to [`Hooks::post`].
     #[wasm_bindgen(method, getter)]
     fn hosted(this: &Options) -> bool;
@@ -70,6 +73,9 @@ extern "C" {
     /// A picture is to be saved as PNG: rows from the top, red, green, blue and alpha of each pixel.
     #[wasm_bindgen(method)]
     fn pixels(this: &Hooks, name: &str, width: u32, height: u32, rgba: &[u8]);
+    /// How far the person has come in the lessons is to be kept; see [`outside::progress_not_kept`].
+    #[wasm_bindgen(method)]
+    fn keep(this: &Hooks, progress: &str);
     /// A page at this address, from this one, is to be opened in a tab of its own.
     #[wasm_bindgen(method)]
     fn open(this: &Hooks, page: &str);
@@ -141,6 +147,7 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         fragment: options.fragment(),
         embed: Embed::named(&options.embed()),
         hosted: options.hosted(),
+        progress: options.progress(),
     };
     let test = options.test();
     let name = std::rc::Rc::new(Cell::new(""));

@@ -9,6 +9,7 @@ import { mirror } from "./mirror.js";
 import { keepOffline } from "./offline.js";
 import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { program, SINGLE } from "./parts.js";
+import * as progress from "./progress.js";
 import { readQuery } from "./query.js";
 import { studies } from "./studies.js";
 
@@ -51,6 +52,7 @@ const hooks = {
   open: (page) => window.open(new URL(SINGLE ? page.replace("theory.html", "?theory") : page, location.href), "_blank", "noopener"),
   post: (json) => host?.post(JSON.parse(json)),
   // Set once the program is there.
+  keep: () => {},
   choose: () => {},
   picture: () => {},
   pixels: () => {},
@@ -85,6 +87,7 @@ async function startOnSome(core) {
       fragment: fragment(),
       embed: settings.embed,
       hosted: host !== null,
+      progress: progress.kept(),
     };
     try {
       const used = await core.start(canvas, options, hooks);
@@ -112,6 +115,7 @@ async function main() {
   const kept = logs(core, module);
   hooks.choose = () => choose(core, kept);
   hooks.chooseLog = () => chooseLog(core, kept);
+  hooks.keep = (text) => progress.keep(text) || core.progress_not_kept();
   hooks.readLog = kept.read;
   hooks.fetchLog = kept.fetchBytes;
   hooks.picture = (...drawing) => picture(core, ...drawing);

@@ -93,6 +93,7 @@ impl App {
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
                 Command::Log(wish) => self.wish_of_log(wish),
+                Command::Lesson(wish) => self.wish_of_lesson(ctx, wish),
                 Command::Theory(symbol) => self.theory(symbol),
                 Command::Share(what) => self.share(ctx, what),
                 Command::Mark(mark, time) => self.mark(mark, time),

@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::lesson::Wish;
 use crate::app::log::form::Edit;
 use crate::app::saving::{Format, Subject};
 use crate::app::stages::stage::Stage;
@@ -147,6 +148,8 @@ pub enum Command {
     OfferToSave(Subject),
     /// Do something with a log.
     Log(LogWish),
+    /// Do something in the tour or a challenge.
+    Lesson(Wish),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

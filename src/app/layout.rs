@@ -3,6 +3,7 @@
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
 use crate::app::embed::{Embed, TOOL};
+use crate::app::lesson::tour::Focus;
 use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
@@ -30,6 +31,8 @@ pub struct Layout {
     pub readout: Option<Rect>,
     /// Plots.
     pub plots: Option<Rect>,
+    /// The card of the tour and the challenges.
+    pub lesson: Option<Rect>,
     /// Whether the controls are in a sheet.
     pub sheet: bool,
 }
@@ -154,6 +157,7 @@ impl Layout {
             plane: None,
             readout: None,
             plots: None,
+            lesson: None,
             sheet: false,
         }
     }
@@ -215,7 +219,9 @@ impl Layout {
         let bar = rest.top(42.0);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
-        let title = (0.32 * bar.width()).clamp(150.0, 300.0);
+        // Beside the tools and four views that can be read.
+        let room = bar.width() - tools_width(true) - 2.0 * GAP - 196.0;
+        let title = (0.32 * bar.width()).clamp(150.0, 300.0).min(room.max(110.0));
         Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport).with_lower(side, sheet)
     }
 
@@ -224,9 +230,68 @@ impl Layout {
         Self { controls, tabbed, sheet: true, ..self }
     }
 
+    /// How wide the card of a lesson gets.
+    #[must_use]
+    pub fn lesson_width(&self) -> f32 {
+        let places = [self.readout, self.tabbed, self.controls.filter(|_| self.sheet)];
+        places.into_iter().flatten().next().map_or(0.0, |rect| rect.width())
+    }
+
+    /// Makes room for the card of a lesson, as high as it needs to be where that is possible. On a desk it takes the place of the readout;
+    /// where there is room for one view only, that is the one that the lesson looks at.
+    #[must_use]
+    pub fn with_lesson(self, need: f32, focus: Focus) -> Self {
+        if focus == Focus::Plate {
+            return self.with_plate(need);
+        }
+        if let (Some(plane), Some(readout)) = (self.plane, self.readout) {
+            let mut side = Cut(plane.union(readout));
+            let most = (side.0.height() - 165.0).max(readout.height());
+            let lesson = side.bottom(need.clamp(readout.height(), most));
+            return Self { plane: Some(side.0), readout: None, lesson: Some(lesson), ..self };
+        }
+        let (Some(view), Some(transport)) = (self.view, self.transport) else { return self };
+        let Some(lower) = self.tabbed.or(self.controls.filter(|_| self.sheet)) else { return self };
+        let beside = lower.left() > view.right();
+        if !self.sheet {
+            let mut rest = Cut(view.union(transport).union(lower));
+            let lesson = rest.bottom(need.min(0.4 * rest.0.height()));
+            let tabbed = rest.bottom((0.45 * rest.0.height()).max(190.0));
+            let transport = rest.bottom(transport.height());
+            let (view, tabbed, transport) = (Some(rest.0), Some(tabbed), Some(transport));
+            return Self { view, tabbed, transport, lesson: Some(lesson), ..self };
+        }
+        let mut rest = Cut(if beside { view } else { view.union(lower) });
+        let lesson = if beside { lower } else { rest.bottom(need.min(0.62 * rest.0.height())) };
+        let one = |wanted: bool| wanted.then_some(rest.0);
+        let open = self.controls.is_some();
+        let (plots, robot) = (focus == Focus::Plots && !open, focus == Focus::Robot && !open);
+        Self { view: one(robot), tabbed: one(plots), controls: one(open), lesson: Some(lesson), ..self }
+    }
+
+    /// Nothing but the bars, the plate in place of the view, and the card.
+    fn with_plate(self, need: f32) -> Self {
+        let parts = [self.view, self.transport, self.controls, self.tabbed, self.plane, self.readout, self.plots];
+        let mut rest = Cut(parts.into_iter().flatten().fold(Rect::NOTHING, Rect::union));
+        let lesson = match (self.readout, rest.0.width() > 1.3 * rest.0.height()) {
+            (Some(readout), _) => {
+                let side = rest.right(readout.width());
+                side.with_max_y(side.bottom().min(side.top() + need))
+            }
+            (None, true) => rest.right(0.5 * rest.0.width()),
+            (None, false) => rest.bottom(need.min(0.6 * rest.0.height())),
+        };
+        let Self { title, views, tools, sheet, .. } = self;
+        Self { title, views, view: Some(rest.0), lesson: Some(lesson), sheet, ..Self::tools(tools) }
+    }
+
     /// Where a figure, the table or the map stands: in the place of view, plane and readout; on a phone of the tabs, too.
     #[must_use]
     pub fn stage(&self) -> Rect {
+        // Beside the card there is less of it.
+        if let Some(rect) = self.lesson.and(self.view.or(self.tabbed).or(self.controls)) {
+            return rect;
+        }
         let tabbed = self.tabbed.filter(|_| self.sheet);
         [self.view, self.plane, self.readout, tabbed].into_iter().flatten().fold(Rect::NOTHING, Rect::union)
     }
@@ -245,6 +310,7 @@ impl Layout {
             self.plane,
             self.readout,
             self.plots,
+            self.lesson,
         ]
         .into_iter()
         .flatten()

@@ -10,6 +10,7 @@ use egui::Ui;
 use super::App;
 use crate::app::command::Share;
 use crate::app::embed::Embed;
+use crate::app::lesson::At;
 use crate::app::log::file::{File, is_log};
 use crate::app::memo;
 use crate::app::panels::notice::Notice;
@@ -69,6 +70,8 @@ pub enum Effect {
     Open(String),
     /// The person is to choose a file, which comes in by [`App::opened`].
     Choose,
+    /// How far the person has come in the lessons is to be kept on this machine; see [`Host::progress`](super::Host::progress).
+    Keep(String),
     /// The host page is to be told this, JSON; see [`App::request`].
     Post(String),
     /// The person is to choose a log, which comes in by [`App::log_chosen`].
@@ -156,6 +159,7 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
         false_alarms: state.tuning.wish,
         repeats: state.tuning.repeats as u64,
         compare: state.tuning.compare,
+        tour: None,
     }
 }
 
@@ -180,6 +184,7 @@ impl App {
     /// What cannot be read is told.
     pub fn go(&mut self, link: &str) {
         let (read, broken) = Link::read_if(link, memo::check);
+        self.leave_lesson();
         self.load_link(&read);
         if let Some(time) = read.page.time {
             self.state.time = time;
@@ -190,6 +195,10 @@ impl App {
         }
         self.memo.update(&self.state.scenario);
         self.sharing.told = self.current();
+        // A frame has no room for it.
+        let tour = read.page.tour.filter(|_| self.embed.is_none());
+        self.lesson.due = tour.and_then(|step| usize::try_from(step).ok()?.checked_sub(1));
+        self.sharing.told.2.tour = tour;
     }
 
     /// Opens the theory, at a symbol or at its beginning.
@@ -208,7 +217,7 @@ impl App {
                 self.state.time = state::lead_in(link.scenario());
             }
         }
-        let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare } = link.page;
+        let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare, tour: _ } = link.page;
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
         if let Some(only) = self.embed.and_then(Embed::stage) {
             self.state.stage = only;
@@ -235,11 +244,12 @@ impl App {
             let scenario = Draft::from_bytes(&bytes).and_then(Draft::finish);
             let scenario = scenario.and_then(|scenario| memo::check(&scenario).map(|()| scenario));
             let scenario = scenario.map_err(|refused| refusal::told(&refused))?;
-            Link::nearest(&scenario, page(&State { playing: true, ..self.state.clone() }, 0.0))
+            Link::nearest(&scenario, page(&State { playing: true, ..self.own().0.clone() }, 0.0))
                 .map_err(|refused| refused.to_string())
         });
         match read {
             Ok(link) => {
+                self.leave_lesson();
                 let own = self.state.stage.own_preset();
                 self.load_link(&link);
                 // Whoever opens a scenario wants to see it: a figure would go on showing its own.
@@ -253,7 +263,24 @@ impl App {
     }
 
     fn current(&self) -> (String, Scenario, Page) {
-        (self.state.preset.clone(), self.state.scenario.clone(), page(&self.state, self.cursor()))
+        let own = self.own().0;
+        (own.preset.clone(), own.scenario.clone(), self.own_page())
+    }
+
+    /// What the address says of the page: what the person has set, and the step of the tour above it.
+    fn own_page(&self) -> Page {
+        let (own, cursor) = self.own();
+        let tour = match self.state.lesson {
+            Some(At::Tour(step)) => Some(step as u64 + 1),
+            _ => None,
+        };
+        Page { tour, ..page(own, cursor) }
+    }
+
+    /// The link to what the address says.
+    fn own_link(&self) -> Result<Link, ScenarioError> {
+        let own = self.own().0;
+        Link::new(own.preset(), &own.scenario, self.own_page())
     }
 
     /// The link to what the page shows.
@@ -265,8 +292,9 @@ impl App {
     pub(super) fn tell(&mut self, ui: &Ui) {
         let (down, released) = ui.input(|input| (input.pointer.any_down(), input.pointer.any_released()));
         let (preset, scenario, page_told) = &self.sharing.told;
-        let page = page(&self.state, self.cursor());
-        let same = *preset == self.state.preset && *scenario == self.state.scenario;
+        let page = self.own_page();
+        let own = self.own().0;
+        let same = *preset == own.preset && *scenario == own.scenario;
         if down {
             return;
         }
@@ -281,7 +309,7 @@ impl App {
         if !same || step {
             self.sharing.slid_before = slid;
         }
-        match self.link().map(|link| link.fragment()) {
+        match self.own_link().map(|link| link.fragment()) {
             Ok(Ok(fragment)) => {
                 self.sharing.address(fragment, step);
                 self.sharing.too_long = false;
@@ -301,13 +329,15 @@ impl App {
             Share::CopyLink => {
                 let here = |mut link: Link| {
                     // What one sees, also while it moves.
-                    link.page.time = Some(rounded(self.cursor(), self.state.scenario.motion.end));
+                    if self.state.lesson.is_none() {
+                        link.page.time = Some(rounded(self.cursor(), self.state.scenario.motion.end));
+                    }
                     if self.sharing.address.is_empty() {
                         return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
                     }
                     link.at(&self.sharing.address).map_err(|why| why.to_string())
                 };
-                match self.link().map_err(|why| why.to_string()).and_then(here) {
+                match self.own_link().map_err(|why| why.to_string()).and_then(here) {
                     Ok(text) => {
                         ctx.copy_text(text);
                         self.sharing.say("Link copied");

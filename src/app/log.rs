@@ -119,6 +119,7 @@ impl App {
     }
 
     fn show_log(&mut self, parts: &Parts, log: Log) -> Result<(), Refused> {
+        self.leave_lesson();
         self.memo.open(Rc::new(log), parts.setup())?;
         self.notes.clear();
         self.state.time = self.memo.lead_in();

@@ -135,6 +135,21 @@ impl Memo {
         }
     }
 
+    /// Takes the log off the page, and goes back to the simulation.
+    pub fn set_aside(&mut self) -> Option<Recorded> {
+        let log = self.recorded.take()?;
+        self.show(Run::new(self.plan.clone()));
+        Some(log)
+    }
+
+    /// Shows a log again that was set aside, as the scenario now asks; it stays away if it no longer fits.
+    pub fn put_back(&mut self, log: Recorded) {
+        if let Ok((log, run)) = log.again(&self.wanted) {
+            self.recorded = Some(log);
+            self.show(run);
+        }
+    }
+
     fn show(&mut self, run: Run) {
         self.run = run;
         self.trace = Trace::new(&self.run);

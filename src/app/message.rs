@@ -182,6 +182,10 @@ impl App {
                 refused.push(error.into());
             }
         }
+        if page.tour.is_some() {
+            let asked = wishes.get("tour").unwrap_or(&Json::Null);
+            refused.push(Refusal::part("tour", asked, "the tour is open in a page of its own only"));
+        }
         if let Some(embed) = self.embed
             && !embed.views().contains(&page.view)
         {

@@ -2,6 +2,7 @@
 
 pub mod chip;
 pub mod columns;
+pub mod gallery;
 pub mod log;
 pub mod notice;
 pub mod readout;

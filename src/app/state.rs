@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::controls::control::Control;
 use crate::app::controls::table;
+use crate::app::lesson::At;
 use crate::app::stages::stage::Stage;
 use crate::app::theme::ThemeChoice;
 use centrode_core::scenario::preset::{self, PRESETS, Preset};
@@ -53,6 +54,8 @@ pub struct State {
     pub sheet: bool,
     /// Whether the help is open.
     pub help: bool,
+    /// Where one is in the lessons; none outside of them.
+    pub lesson: Option<At>,
 }
 
 /// What is looked at while tuning.
@@ -111,6 +114,7 @@ impl Default for State {
             marks: [None; 2],
             sheet: false,
             help: false,
+            lesson: None,
         }
     }
 }

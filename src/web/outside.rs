@@ -17,6 +17,8 @@ enum Arrival {
     File(String, Result<Vec<u8>, String>),
     /// That a file could not be saved, and why.
     Unsaved(String, String),
+    /// That progress could not be kept.
+    Unkept,
 }
 
 thread_local! {
@@ -52,6 +54,12 @@ pub fn save_failed(name: String, reason: String) {
     arrive(Arrival::Unsaved(name, reason));
 }
 
+/// How far the person has come could not be kept.
+#[wasm_bindgen]
+pub fn progress_not_kept() {
+    arrive(Arrival::Unkept);
+}
+
 /// Gives the interface what has come in.
 pub fn take_in(app: &mut App) {
     for arrival in ARRIVALS.take() {
@@ -59,6 +67,7 @@ pub fn take_in(app: &mut App) {
             Arrival::Link(fragment) => app.go(&fragment),
             Arrival::File(name, bytes) => app.opened(&name, bytes),
             Arrival::Unsaved(name, reason) => app.not_saved(&name, &reason),
+            Arrival::Unkept => app.progress_not_kept(),
         }
     }
 }
@@ -72,6 +81,7 @@ pub fn hand_out(effect: Effect) {
         Effect::Pixels { name, pixels: Pixels { size: [width, height], rgba } } => {
             hooks.pixels(&name, width, height, &rgba);
         }
+        Effect::Keep(progress) => hooks.keep(&progress),
         Effect::Open(page) => hooks.open(&page),
         Effect::Choose => hooks.choose(),
         Effect::Post(json) => hooks.post(&json),

@@ -29,6 +29,7 @@ mod embed;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
+mod lesson;
 mod links;
 mod logs;
 mod paper;

@@ -76,7 +76,7 @@ fn copy(page: &mut Page, role: Role, item: &str) -> String {
 #[test]
 fn every_stage_has_a_name_in_links_and_the_defaults_agree() {
     assert_eq!(Stage::ALL.map(Stage::key), VIEWS);
-    let page = page_at(DESK, "");
+    let page = page_at(DESK, "preset=bench");
     let (state, shown) = (app(&page).state(), Shown::default());
     assert_eq!((state.stage.key(), state.speed, state.looping), (shown.view, shown.speed, shown.looping));
     let tuning = state.tuning;

@@ -2,9 +2,13 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
+mod captions;
+mod challenges;
 mod contact;
 mod detectors;
 mod embed;
+mod gallery;
+mod lesson;
 mod links;
 mod logs;
 mod painted;

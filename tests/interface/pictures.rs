@@ -202,3 +202,30 @@ fn saving_and_two_marks() {
     click(&mut page, "Save figure 4");
     compare(&mut page, "save-phone-dark");
 }
+
+#[test]
+fn the_tour() {
+    for (size, theme, link, name) in [
+        (DESK, Dark, "tour=1", "tour-1-desk-dark"),
+        (DESK, Light, "tour=8", "tour-8-desk-light"),
+        (PHONE, Light, "tour=5", "tour-5-phone-light"),
+    ] {
+        let mut page = page(size, theme, 6.0);
+        page.state_mut().as_mut().expect("built").go(link);
+        page.run_steps(3);
+        compare(&mut page, name);
+    }
+}
+
+#[test]
+fn a_challenge_and_the_gallery() {
+    let mut page = page(PHONE, Dark, 6.0);
+    crate::lesson::learn(&mut page, "Challenges");
+    click(&mut page, "Halve the delay");
+    compare(&mut page, "challenge-phone-dark");
+    click(&mut page, "Leave challenges");
+    page.set_size(DESK);
+    page.run_steps(3);
+    click(&mut page, "Preset");
+    compare(&mut page, "gallery-desk-dark");
+}

@@ -40,6 +40,8 @@ fn report(page: &Page) -> serde_json::Value {
 #[test]
 fn it_opens_playing_on_a_contact_that_is_detected() {
     let mut page = build(Harness::builder().with_size(vec2(1440.0, 900.0)), None);
+    assert!(!app(&page).state().playing, "nothing moves by itself for who wants less motion");
+    click(&mut page, "Play");
     let before = app(&page).state().time;
     page.run_steps(5);
     assert!(app(&page).state().playing && app(&page).state().time > before + 0.4);

@@ -2,6 +2,7 @@
 
 mod flat;
 mod paint;
+pub mod thumb;
 mod track;
 
 use crate::app::charts::legend::{Entry, Form, ROW, arrow, legend, mark, placed as placed_entry};

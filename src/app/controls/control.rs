@@ -19,6 +19,15 @@ pub struct Group {
     pub note: &'static str,
 }
 
+impl Group {
+    /// Whether it holds the control of a key.
+    #[must_use]
+    pub fn holds(&self, key: &str) -> bool {
+        self.controls.iter().any(|control| control.key == key)
+            || self.choices.iter().any(|choice| choice.of.path == key)
+    }
+}
+
 /// How values lie along a slider, in the unit shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Scale {

@@ -6,12 +6,13 @@ use egui::{
 
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::panels::gallery::Gallery;
 use crate::app::panels::share;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
-use centrode_core::scenario::preset::{PRESETS, Preset};
+use centrode_core::scenario::preset::Preset;
 
 /// A preset's name as the page writes it.
 #[must_use]
@@ -22,7 +23,7 @@ pub fn name(preset: &Preset) -> String {
 }
 
 /// Shows what the page is called and which preset it goes back to.
-pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
+pub fn title(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let mut left = rect.left_center() + vec2(if rect.width() < 560.0 { 8.0 } else { 10.0 }, 0.0);
     mark(ui, left + vec2(9.0, 0.0), &theme);
@@ -32,13 +33,13 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
     }
     let room = (rect.right() - left.x).clamp(72.0, 240.0);
     let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
-    presets(ui, place, state, out);
+    presets(ui, place, state, gallery, out);
 }
 
 /// Width that [`tools`] takes, points.
 #[must_use]
 pub fn tools_width(sheet: bool) -> f32 {
-    if sheet { 158.0 } else { 120.0 }
+    if sheet { 196.0 } else { 158.0 }
 }
 
 /// Shows sharing, theme and help; `sheet` asks for the button that opens the controls.
@@ -100,25 +101,21 @@ fn mark(ui: &Ui, center: egui::Pos2, theme: &Theme) {
     ui.painter().circle_filled(hub, 2.8, theme.accent);
 }
 
-fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
+fn presets(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let chosen = state.preset();
     let title = name(chosen);
     let response = combo(ui, rect, "Preset", &title, &theme);
 
     let screen = ui.ctx().content_rect();
-    let width = (screen.width() - 40.0).min(420.0);
+    let width = (screen.width() - 56.0).min(900.0);
+    gallery.open = false;
     Popup::menu(&response).accessible_name("Presets").width(width).show(|ui| {
         let height = screen.bottom() - rect.bottom() - 40.0;
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(width);
-            ui.spacing_mut().item_spacing.y = 2.0;
-            for preset in PRESETS {
-                let this = std::ptr::eq(preset, chosen);
-                if item(ui, Role::ListBoxOption, (&name(preset), preset.summary()), this, &theme) {
-                    out.push(Command::Choose(preset));
-                    ui.close();
-                }
+            if gallery.show(ui, chosen, out) {
+                ui.close();
             }
         });
     });
@@ -128,7 +125,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 }
 
 /// A choice with what it shows or does; returns whether it was clicked.
-pub(super) fn item(ui: &mut Ui, role: Role, texts: (&str, &str), chosen: bool, theme: &Theme) -> bool {
+pub(in crate::app) fn item(ui: &mut Ui, role: Role, texts: (&str, &str), chosen: bool, theme: &Theme) -> bool {
     choice(ui, role, texts, chosen, theme).clicked()
 }
 

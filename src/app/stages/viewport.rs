@@ -5,6 +5,7 @@ mod notes;
 use std::sync::Arc;
 
 use crate::app::command::Command;
+use crate::app::lesson::captions::Caption;
 use crate::app::panels::save;
 use crate::app::saving::Subject;
 use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
@@ -40,6 +41,8 @@ pub struct ViewState {
     version: u64,
     scene: Arc<Scene>,
     still: bool,
+    /// What is said of it, see [`Captions`](crate::app::lesson::captions::Captions).
+    pub captions: Vec<Caption>,
 }
 
 /// All that the scene depends on.
@@ -158,7 +161,7 @@ pub fn viewport(
             out.push(Command::ToggleFrozen);
         }
     }
-    notes::notes(ui, rect, &camera, (run, frozen), &state.scene, taken);
+    notes::notes(ui, rect, &camera, (run, frozen), (&state.scene, &state.captions), taken);
     state.seen = Some((camera, rect.size()));
     save::menu(ui, file, Subject::View, out);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();

@@ -47,6 +47,8 @@ pub enum Icon {
     Open,
     /// Two curves from one foot.
     Compare,
+    /// An open book.
+    Learn,
 }
 
 /// How a button looks.
@@ -102,6 +104,7 @@ fn rect_key(icon: Icon) -> &'static str {
         Icon::Save => "save",
         Icon::Open => "open",
         Icon::Compare => "compare",
+        Icon::Learn => "learn",
     }
 }
 
@@ -198,6 +201,13 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             painter.line(curve(2.5), stroke);
             let other = curve(10.0);
             painter.extend(Shape::dashed_line(&other, stroke, 2.4 * scale, 2.0 * scale));
+        }
+        Icon::Learn => {
+            for side in [1.0, -1.0] {
+                let page = [(0.0, -3.4), (2.6, -4.8), (6.6, -4.8), (6.6, 4.0), (2.6, 4.0), (0.0, 5.4)];
+                painter.line(page.map(|(x, y)| p(side * x, y)).to_vec(), stroke);
+            }
+            painter.line_segment([p(0.0, -3.4), p(0.0, 5.4)], stroke);
         }
         Icon::Close => {
             painter.line_segment([p(-4.2, -4.2), p(4.2, 4.2)], stroke);

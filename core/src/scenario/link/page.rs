@@ -16,6 +16,8 @@ pub const RULES: &[&str] = &["fcd", "jfd", "or", "and"];
 pub const SPEEDS: (f64, f64) = (0.1, 4.0);
 /// The most repeats of a study.
 pub const MAX_REPEATS: u64 = 100_000;
+/// Steps of the page's tour.
+pub const TOUR_STEPS: u64 = 10;
 const SWITCH: &[&str] = &["on", "off"];
 
 /// What the page shows; a setting that is not in a link has its default.
@@ -37,6 +39,8 @@ pub struct Page {
     pub repeats: u64,
     /// The detectors that are compared in the tuning view.
     pub compare: Detectors,
+    /// The step of the tour that is open over all this, from 1; none outside of the tour.
+    pub tour: Option<u64>,
 }
 
 impl Default for Page {
@@ -50,6 +54,7 @@ impl Default for Page {
             false_alarms: 0.05,
             repeats: 100,
             compare: Detectors::of(Method::ALL),
+            tour: None,
         }
     }
 }
@@ -141,6 +146,18 @@ pub const PAGE_KEYS: &[PageKey] = &[
             if let Value::Words(words) = value {
                 let chosen = Method::ALL.iter().copied().filter(|method| words.contains(&method.key()));
                 page.compare = Detectors::of(&chosen.collect::<Vec<_>>());
+            }
+        },
+    },
+    PageKey {
+        name: "tour",
+        quantity: Quantity::Count,
+        allowed: Allowed::Whole(1, TOUR_STEPS),
+        sentence: "The step at which the tour is open; the rest of the link is what the page goes back to after it.",
+        get: |page| page.tour.map(Value::Whole),
+        set: |page, value| {
+            if let Value::Whole(step) = value {
+                page.tour = Some(*step);
             }
         },
     },

@@ -44,7 +44,7 @@ pub enum Outline {
 
 impl Outline {
     /// Corners of a rectangle around it, or its own, mm.
-    fn corners(&self) -> [Flat; 4] {
+    pub(super) fn corners(&self) -> [Flat; 4] {
         match *self {
             Self::Bar(corners) => corners,
             Self::Round([x, z], r) => [[x - r, z - r], [x + r, z - r], [x + r, z + r], [x - r, z + r]],

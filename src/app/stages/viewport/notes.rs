@@ -4,6 +4,7 @@ use egui::{Color32, Pos2, Rect, Ui, Vec2, pos2, vec2};
 
 use crate::app::charts::legend::{self, Entry, Form};
 use crate::app::fonts;
+use crate::app::lesson::captions::{self, Caption};
 use crate::app::theme::Theme;
 use crate::scene::{Camera, Label, Pose, Scene, Solid, arc};
 use crate::show::obstacle::only_touches;
@@ -14,11 +15,27 @@ const MARGIN: f32 = 14.0;
 /// A view narrower than this has the legend in rows, points.
 const NARROW: f32 = 480.0;
 
-/// Writes legend and labels of a run, with what is compared with it or without; `taken` is where other things stand.
-pub fn notes(ui: &Ui, rect: Rect, camera: &Camera, run: (&Run, bool), scene: &Scene, mut taken: Vec<Rect>) {
+/// Writes legend, captions and labels of a run, with what is compared with it or without; `taken` is where other things stand.
+pub fn notes(
+    ui: &Ui,
+    rect: Rect,
+    camera: &Camera,
+    run: (&Run, bool),
+    (scene, said): (&Scene, &[Caption]),
+    mut taken: Vec<Rect>,
+) {
     let theme = Theme::of(ui);
     let view = View { rect, camera };
     taken.extend(name_all(ui, &view, &theme, run, scene));
+    if !said.is_empty() {
+        let seen: Vec<Pos2> = bodies(scene).filter_map(|point| view.at(point)).collect();
+        // Where there is little room, the latest alone.
+        let first = if rect.width() < NARROW { said.len() - 1 } else { 0 };
+        for caption in &said[first..] {
+            let Some(anchor) = view.at(caption.anchor).filter(|at| rect.contains(*at)) else { continue };
+            taken.extend(captions::paint(ui, rect, (caption, anchor), &taken, &seen));
+        }
+    }
     labels(ui, &view, &theme, scene, taken);
 }
 
