@@ -17,6 +17,7 @@ pub mod link;
 pub mod log;
 pub mod memo;
 pub mod message;
+pub mod mirror;
 pub mod panels;
 pub mod saving;
 pub mod stages;
@@ -37,12 +38,14 @@ use charts::plots::{self, PlotState};
 use command::Command;
 use controls::Inputs;
 use embed::Embed;
+use keys::Holder;
 use layout::Layout;
 use link::Sharing;
 use log::Logs;
 use memo::{Memo, Refusal};
 use message::Listener;
 use panels::chip::Chip;
+use panels::cover::Cover;
 use stages::StageState;
 use stages::comparer::Comparer;
 use stages::lent::Lent;
@@ -95,6 +98,7 @@ pub struct App {
     embed: Option<Embed>,
     listener: Option<Listener>,
     logs: Logs,
+    cover: Cover,
     prefers_reduced_motion: bool,
 }
 
@@ -120,6 +124,7 @@ impl App {
             stages: StageState::default(),
             source: None,
             logs: Logs::new(host.log_helper),
+            cover: Cover::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
             embed: host.embed,
@@ -184,6 +189,8 @@ impl App {
                 Some(recorded) => words::log::sentence(run, recorded),
                 None => story::sentence(run),
             },
+            "said": words::said::said(run, time),
+            "sound": self.sound(),
             "log": self.log(),
             "tuning": match self.state.stage {
                 Stage::Tuning => self.tuner.report(self.state.tuning.rule),
@@ -194,13 +201,24 @@ impl App {
         .to_string()
     }
 
+    /// What is heard: the deviation over its threshold, while it is played and there are both; none without sound.
+    fn sound(&self) -> Option<serde_json::Value> {
+        if !self.state.sound || !self.state.playing {
+            return None;
+        }
+        let run = self.memo.run();
+        let threshold = run.plan.scenario().detection.xi2.value();
+        let ratio = threshold.map(|xi2| run.sample_at(self.cursor()).judgement.deviation / xi2);
+        // What is undefined is null in JSON.
+        Some(serde_json::json!({ "ratio": ratio }))
+    }
+
     /// The whole page.
     pub fn ui(&mut self, ui: &mut Ui) {
         let mut out = Vec::new();
         // A pass that is done again has had its keys and its time already.
         if ui.ctx().current_pass_index() == 0 {
-            let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
-            keys::read(ui, self.end(), self.state.stage, covered, &mut out);
+            keys::read(ui, self.end(), self.state.stage, self.holder(ui), &mut out);
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
@@ -221,6 +239,23 @@ impl App {
         self.tell_host();
         if self.state.playing {
             ui.ctx().request_repaint();
+        }
+    }
+
+    /// Whether something lies over the page until it is closed.
+    fn is_covered(&self) -> bool {
+        self.state.help || self.state.keys || self.sharing.notice.is_some() || self.logs.form.is_some()
+    }
+
+    fn holder(&self, ui: &Ui) -> Holder {
+        if self.is_covered() || egui::Popup::is_any_open(ui.ctx()) || ui.ctx().text_edit_focused() {
+            Holder::All
+        } else if ui.memory(|memory| memory.focused().is_none()) {
+            Holder::Nobody
+        } else if self.view.has_focus() {
+            Holder::View
+        } else {
+            Holder::Widget
         }
     }
 
@@ -294,7 +329,7 @@ impl App {
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = Layout::new(page, sheet, self.embed);
-        let cursor = self.cursor();
+        let (cursor, covered) = (self.cursor(), self.is_covered());
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
         self.plots.marks = self.state.marks;
@@ -315,6 +350,7 @@ impl App {
             embed,
             listener: _,
             logs,
+            cover,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -324,13 +360,13 @@ impl App {
             panels::log::banner(ui, top, banner, out);
         }
         if let Some(rect) = layout.title {
-            panels::title::title(ui, rect, state, out);
+            layout::part(ui, "title", |ui| panels::title::title(ui, rect, state, out));
         }
         if let Some(rect) = layout.views {
-            panels::views::views(ui, rect, state.stage, state.paper, out);
+            layout::part(ui, "views", |ui| panels::views::views(ui, rect, state.stage, state.paper, out));
         }
         if embed.is_none() {
-            panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+            layout::part(ui, "tools", |ui| panels::title::tools(ui, layout.tools, state, layout.sheet, out));
         }
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
@@ -342,7 +378,7 @@ impl App {
             layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
         }
         let robot = state.stage == Stage::Robot;
-        let covered = layout.stage();
+        let whole = layout.stage();
         if robot {
             if let Some(rect) = layout.view {
                 layout::card(ui, "view", rect, |ui| {
@@ -374,7 +410,7 @@ impl App {
                 comparer,
                 tuning: state.tuning,
             };
-            layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
+            layout::card(ui, "stage", whole, |ui| stages::stage(ui, whole, &inputs, studies, stages, out));
         }
         if let Some(rect) = layout.transport {
             layout::card(ui, "transport", rect, |ui| {
@@ -403,19 +439,23 @@ impl App {
             }),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
-            if let Some(rect) = rect.filter(|rect| robot || !covered.contains_rect(*rect)) {
+            if let Some(rect) = rect.filter(|rect| robot || !whole.contains_rect(*rect)) {
                 layout::card(ui, "card", rect, |_| ());
                 show(ui, tab, rect, out);
             }
         }
-        if let Some(rect) = layout.tabbed.filter(|rect| robot || !covered.contains_rect(*rect)) {
+        if let Some(rect) = layout.tabbed.filter(|rect| robot || !whole.contains_rect(*rect)) {
             layout::card(ui, "tabbed", rect, |_| ());
             let (strip, below) = layout::tab_strip(rect);
             panels::tabs::tabs(ui, strip, state.tab, out);
             show(ui, state.tab, below, out);
         }
-        if state.help {
-            words::help::help(ui, out);
+        let by_key = cover.update(ui, covered);
+        if state.help && !state.keys {
+            words::help::help(ui, (state.sound, by_key), out);
+        }
+        if state.keys {
+            words::keys::keys(ui, by_key, out);
         }
         panels::share::said(ui, layout.tools, sharing.said(ui));
         if let Some(form) = &logs.form {

@@ -92,6 +92,8 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::ToggleSound => self.state.sound = !self.state.sound,
+                Command::ToggleKeys => self.state.keys = !self.state.keys,
                 Command::Log(wish) => self.wish_of_log(wish),
                 Command::Theory(symbol) => self.theory(symbol),
                 Command::Share(what) => self.share(ctx, what),

@@ -3,6 +3,7 @@
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
 use crate::app::embed::{Embed, TOOL};
+use crate::app::mirror;
 use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
@@ -266,10 +267,38 @@ pub fn round(ui: &Ui, rect: Rect) {
     ui.painter().rect_stroke(rect, f32::from(crate::app::theme::ROUND), edge, egui::StrokeKind::Outside);
 }
 
+/// What the parts of the page are called by those who do not see them; others are parts of these.
+const PARTS: [(&str, &str); 10] = [
+    ("title", "Experiment"),
+    ("views", "Views"),
+    ("tools", "Tools"),
+    ("controls", "Controls"),
+    ("view", "3D view"),
+    ("stage", "Stage"),
+    ("transport", "Playback"),
+    ("readout", "Result"),
+    ("plots", "Plots"),
+    ("plane", "Bending plane"),
+];
+
+/// Shows a part of the page that keeps to its place by itself.
+pub fn part<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(ui.max_rect()));
+    told(&child, name);
+    content(&mut child)
+}
+
+fn told(ui: &Ui, name: &str) {
+    if let Some((_, told)) = PARTS.iter().find(|(part, _)| *part == name) {
+        mirror::mark(ui, mirror::Part::Region, told);
+    }
+}
+
 /// Shows content in a rectangle.
 pub fn inside<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(rect));
     child.shrink_clip_rect(rect);
+    told(&child, name);
     content(&mut child)
 }
 

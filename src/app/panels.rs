@@ -2,7 +2,9 @@
 
 pub mod chip;
 pub mod columns;
+pub mod cover;
 pub mod log;
+pub mod menu;
 pub mod notice;
 pub mod readout;
 pub mod save;

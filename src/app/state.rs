@@ -53,6 +53,10 @@ pub struct State {
     pub sheet: bool,
     /// Whether the help is open.
     pub help: bool,
+    /// Whether the run is heard, too.
+    pub sound: bool,
+    /// Whether the list of keys is open.
+    pub keys: bool,
 }
 
 /// What is looked at while tuning.
@@ -111,6 +115,8 @@ impl Default for State {
             marks: [None; 2],
             sheet: false,
             help: false,
+            sound: false,
+            keys: false,
         }
     }
 }

@@ -99,7 +99,7 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Page => page(options.dev, dist).map(drop),
         Stage::Browser => {
-            let browser = tools::browser()?;
+            let (browser, axe) = (tools::browser()?, tools::axe()?);
             // Not at the root, so that an absolute address anywhere in the page shows.
             let page = serve::background(&page(options.dev, dist)?, "/deep/path/")?;
             run(cargo()
@@ -108,7 +108,8 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
                 .args(["--test", "browser", "--"])
                 .args(&options.arguments)
                 .env("CENTRODE_PAGE", page)
-                .env("CENTRODE_BROWSER", browser))
+                .env("CENTRODE_BROWSER", browser)
+                .env("CENTRODE_AXE", axe))
         }
     }
 }

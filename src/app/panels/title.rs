@@ -6,9 +6,10 @@ use egui::{
 
 use crate::app::command::Command;
 use crate::app::fonts;
-use crate::app::panels::share;
+use crate::app::panels::{menu, share};
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
+use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
 use centrode_core::scenario::preset::{PRESETS, Preset};
@@ -108,13 +109,13 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 
     let screen = ui.ctx().content_rect();
     let width = (screen.width() - 40.0).min(420.0);
-    Popup::menu(&response).accessible_name("Presets").width(width).show(|ui| {
+    menu::show(ui, &response, "Presets", width, |ui| {
         let height = screen.bottom() - rect.bottom() - 40.0;
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(width);
             ui.spacing_mut().item_spacing.y = 2.0;
             for preset in PRESETS {
-                let this = std::ptr::eq(preset, chosen);
+                let this = preset.name == chosen.name;
                 if item(ui, Role::ListBoxOption, (&name(preset), preset.summary()), this, &theme) {
                     out.push(Command::Choose(preset));
                     ui.close();
@@ -146,6 +147,7 @@ pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), ch
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }
+    focus::ring(ui, rect, &response);
     ui.painter().galley(rect.min + vec2(10.0, 6.0), galley, theme.ink);
     response
 }

@@ -1,8 +1,9 @@
 //! A row of options of which one holds, or any.
 
-use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2};
 
 use crate::app::fonts;
+use crate::app::mirror;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 
@@ -75,6 +76,8 @@ fn parts(
     holds: impl Fn(usize) -> bool,
 ) -> Option<usize> {
     let theme = Theme::of(ui);
+    let ui = &mut ui.new_child(UiBuilder::new().id_salt(("segments", label)).max_rect(rect));
+    mirror::mark(ui, mirror::Part::Group, label);
     ui.painter().rect_filled(rect, 7.0, theme.raised);
     let width = rect.width() / options.len().max(1) as f32;
     let mut clicked = None;
