@@ -6,7 +6,7 @@ use crate::app::controls::control::Control;
 use crate::app::panels::save;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::words::refusal;
-use crate::app::{controls, memo, state};
+use crate::app::{controls, memo, state, theme};
 use centrode_core::scenario::keys::find;
 use centrode_core::scenario::preset::Preset;
 use centrode_core::scenario::{Contact, Method, Place, Scenario, Start, Threshold, Thresholds, Xi1Rule};
@@ -82,7 +82,7 @@ impl App {
                 Command::ResetChoice(choice) => self.restore(choice.of.path, |from, to| choice.of.copy(from, to)),
                 Command::NextTheme => {
                     self.state.theme = self.state.theme.next();
-                    ctx.set_theme(self.state.theme.preference());
+                    theme::choose(ctx, self.state.theme);
                 }
                 Command::Fold(group) => {
                     if !self.state.folded.remove(group) {

@@ -309,7 +309,7 @@ fn presets_theme_groups_and_help() {
     click(&mut page, "aligned");
     assert_eq!(app(&page).state().scenario.tracker.mounting, centrode_core::scenario::Mounting::Aligned);
     click(&mut page, "Theme: system");
-    assert!(page.query_by_label("Theme: light").is_some());
+    assert!(page.query_by_label("Theme: dark").is_some());
     click(&mut page, "Help");
     page.run_steps(2);
     assert!(page.query_by_label_contains("What the fixed centrode is").is_some(), "{:?}", app(&page).state().help);

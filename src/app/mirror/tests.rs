@@ -2,13 +2,16 @@ use super::*;
 use crate::app::{App, Host};
 use egui::{Rect, Vec2, vec2};
 
+/// What is asked, given what there was before.
+type Ask<'a> = &'a dyn Fn(&Mirror) -> Vec<egui::Event>;
+
 /// A page of a size after a few frames, with what is asked of it before each of them.
-fn mirrored(size: Vec2, asks: &[&dyn Fn(&Mirror) -> Vec<egui::Event>]) -> Mirror {
+fn mirrored(size: Vec2, asks: &[Ask<'_>]) -> Mirror {
     let ctx = egui::Context::default();
     ctx.enable_accesskit();
     let mut app: Option<App> = None;
     let mut last = Mirror { focus: String::new(), elements: Vec::new() };
-    let nothing: &dyn Fn(&Mirror) -> Vec<egui::Event> = &|_| Vec::new();
+    let nothing: Ask<'_> = &|_| Vec::new();
     // A menu takes a frame to be measured, and one to be shown.
     let quiet = [nothing; 3];
     for (k, ask) in quiet.iter().chain(asks.iter().flat_map(|ask| [ask, &nothing, &nothing, &nothing])).enumerate() {
@@ -124,5 +127,5 @@ fn presets_are_a_list_and_the_help_is_a_dialog() {
     let close = find(&mirror, Kind::Button, "Close help");
     assert_eq!(parent(&mirror, close).map(|dialog| dialog.kind), Some(Kind::Dialog));
     assert_eq!(mirror.focus, close.id);
-    assert_eq!(find(&mirror, Kind::Heading, "What happens on contact").focusable, false);
+    assert!(!find(&mirror, Kind::Heading, "What happens on contact").focusable);
 }

@@ -57,6 +57,7 @@ pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
         ThemeChoice::System => (Icon::System, "Theme: system"),
         ThemeChoice::Light => (Icon::Light, "Theme: light"),
         ThemeChoice::Dark => (Icon::Dark, "Theme: dark"),
+        ThemeChoice::Projector => (Icon::Projector, "Theme: projector"),
     };
     if icon::button(ui, place(38.0), sign, label, Look::Plain).clicked() {
         out.push(Command::NextTheme);

@@ -14,7 +14,7 @@ use crate::app::theme::Theme;
 use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
-use crate::scene::palette::Palette;
+use crate::scene::palette::{Palette, Shade};
 use crate::scene::{Camera, Scene, Studio};
 use crate::show::obstacle::only_touches;
 use crate::show::track::Trace;
@@ -55,7 +55,7 @@ pub struct ViewState {
 struct Shown {
     version: u64,
     time: f64,
-    dark: bool,
+    shade: Shade,
     frozen: bool,
     /// Mean and ends of the contact's place, m.
     placed: Option<[f64; 3]>,
@@ -76,7 +76,7 @@ impl ViewState {
     /// be `clear`. False where there is nothing to draw with.
     pub fn save(&mut self, name: String, clear: bool) -> bool {
         let (Some(gpu), Some((camera, size)), Some(shown)) = (&self.gpu, &self.seen, &self.shown) else { return false };
-        let mut studio = Palette::for_dark(shown.dark).studio;
+        let mut studio = Palette::of(shown.shade).studio;
         let mut scene = Arc::clone(&self.scene);
         if clear {
             (studio.inner, studio.outer) = (studio.inner.alpha(0.0), studio.outer.alpha(0.0));
@@ -119,10 +119,10 @@ impl ViewState {
         if self.shown.as_ref() == Some(&shown) {
             return;
         }
-        let Shown { time, dark, frozen, .. } = shown;
+        let Shown { time, shade, frozen, .. } = shown;
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        let options = ViewOptions { palette: Palette::for_dark(dark), pulse, frozen, placed };
+        let options = ViewOptions { palette: Palette::of(shade), pulse, frozen, placed };
         self.scene = Arc::new(view(run, trace, time, &options));
         self.version += 1;
         self.shown = Some(shown);
@@ -156,10 +156,10 @@ pub fn viewport(
     steer(ui, &response, rect, &mut camera);
     let home_asked = steer_by_keys(ui, &response, &mut camera);
     let place = placed.map(|estimate| [estimate.place.mean, estimate.place.low, estimate.place.high]);
-    state.update(run, trace, placed, Shown { version, time: cursor, dark: theme.dark, frozen, placed: place });
+    state.update(run, trace, placed, Shown { version, time: cursor, shade: theme.shade, frozen, placed: place });
 
     let size = rect.size() * ui.pixels_per_point();
-    let studio = Palette::for_dark(theme.dark).studio;
+    let studio = Palette::of(theme.shade).studio;
     let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
