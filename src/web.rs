@@ -11,7 +11,7 @@ mod widgets;
 mod worker;
 
 use crate::app::embed::Embed;
-use crate::app::stages::tuner::Helper;
+use crate::app::helper::Helper;
 use crate::app::{App, Host};
 use centrode_core::run::simulate;
 use centrode_core::scenario::Scenario;

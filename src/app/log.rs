@@ -11,11 +11,11 @@ use std::rc::Rc;
 
 use super::App;
 use crate::app::command::LogWish;
+use crate::app::helper::Helper;
 use crate::app::link::Effect;
 use crate::app::memo::recorded::Recorded;
 use crate::app::panels::log::Banner;
 use crate::app::stages::stage::{Section, Stage};
-use crate::app::stages::tuner::Helper;
 use crate::app::words;
 use centrode_core::record::log::Log;
 use centrode_core::scenario::link::Link;

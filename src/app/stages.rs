@@ -4,7 +4,6 @@ mod choices;
 pub mod comparer;
 mod detectors;
 mod figure;
-pub mod lent;
 mod map;
 pub mod source;
 pub mod stage;

@@ -41,11 +41,16 @@ impl Failure {
             Self::Output(error) => (BAD_INPUT, format!("cannot write the output: {error}")),
             Self::Input(line) => (BAD_INPUT, line),
         };
-        let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        // With standard error closed as well, the exit code is all that is left.
-        let _ = writeln!(io::stderr(), "centrode: {line}");
+        say(&line);
         ExitCode::from(code)
     }
+}
+
+/// Says something beside the output, in one line.
+pub fn say(line: &str) {
+    let line: String = line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    // With standard error closed as well, the exit code is all that is left.
+    let _ = writeln!(io::stderr(), "centrode: {line}");
 }
 
 /// Writes a value as indented JSON and a newline.

@@ -7,7 +7,7 @@ use super::ScenarioArgs;
 use super::draw::{self, Format};
 use super::estimating::Estimating;
 use super::logfile::LogFile;
-use super::output::{Failure, NewFile, Table};
+use super::output::{Failure, NewFile, Table, say};
 use super::report::{Report, print, too_many};
 use centrode_core::run::{MAX_KEPT, Run, Simulation};
 use centrode_core::scenario::Plan;
@@ -83,6 +83,10 @@ impl RunArgs {
             let run = Run::new(plan.clone());
             Conclusions::of(&run.judged, &run.recording, detector, &after)
         } else {
+            let samples = plan.samples();
+            say(&format!(
+                "no contact is placed: the run has {samples} samples, and at most {MAX_KEPT} are kept for that"
+            ));
             Conclusions::default()
         };
         let truth = Some((&plan, simulation.plant_events()));

@@ -2,8 +2,8 @@
 
 use super::{repaint, with_hooks};
 use crate::app::App;
+use crate::app::helper::Helper;
 use crate::app::log::file::{File, is_log};
-use crate::app::stages::tuner::Helper;
 use centrode_core::record::log::remote::Remote;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;

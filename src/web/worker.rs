@@ -4,7 +4,7 @@
 //! the page (`web/studies.js`) and keeps what comes back until the next frame.
 
 use super::with_hooks;
-use crate::app::stages::tuner::Helper;
+use crate::app::helper::Helper;
 use centrode_core::study::remote::Remote;
 use std::cell::RefCell;
 use wasm_bindgen::prelude::*;

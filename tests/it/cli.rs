@@ -225,3 +225,14 @@ fn run_lists_the_events_that_a_reader_wants() {
     assert!(forces["raised"].as_f64() < centrode["raised"].as_f64() && forces["cleared"].is_null());
     assert!(report["crossings"].as_array().is_some_and(|crossings| crossings.len() > 10));
 }
+
+#[test]
+fn a_run_too_long_to_be_placed_says_so() {
+    let long = ["run", "--preset", "bench", "--json", "--set", "motion.end=1000.5", "--set", "detection.xi2=off"];
+    let output = centrode(&long);
+    assert!(output.status.success());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("no contact is placed: the run has 1000501 samples") && said.lines().count() == 1, "{said}");
+    let report: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    assert_eq!(report["estimates"], Value::Array(Vec::new()));
+}

@@ -120,6 +120,22 @@ fn play_colour_and_drift_alarm_only_who_does_not_reckon_with_them() {
 }
 
 #[test]
+fn an_alarm_of_the_paper_is_placed_by_the_posterior_too() {
+    let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("preset");
+    (scenario.loop_rate, scenario.filter.length) = (100.0, 50);
+    let scenario = with(&scenario, &[Method::Fcd]);
+    let spec = Spec { scenario, repeats: 4, rate: 0.3, detector: Method::Fcd, after: vec![0.0] };
+    let mut compare = Compare::new(spec).expect("possible");
+    while !compare.progress().is_complete() {
+        compare.step();
+    }
+    let comparison = compare.comparison();
+    let names: Vec<&str> = comparison.detectors.iter().map(|compared| compared.detector).collect();
+    let placed: Vec<_> = comparison.places.iter().map(|place| (place.estimator, place.count)).collect();
+    assert_eq!((names, placed), (vec!["fcd"], vec![("marginal", 4)]));
+}
+
+#[test]
 fn a_comparison_that_cannot_be_made_says_why() {
     let spec = |preset: &str| {
         let scenario = find(preset).and_then(|preset| preset.scenario()).expect(preset);

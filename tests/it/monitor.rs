@@ -7,7 +7,7 @@ use centrode_core::record::Recording;
 use centrode_core::record::log::{Commands, Log, Options, Setup, assemble};
 use centrode_core::run::{Anew, Replay, Run, Simulation, simulate};
 use centrode_core::scenario::preset::find;
-use centrode_core::scenario::{Detectors, Estimated, Plan, Scenario};
+use centrode_core::scenario::{Detectors, Estimated, Place, Plan, Scenario};
 
 fn preset(name: &str) -> Scenario {
     let mut scenario = find(name).and_then(|preset| preset.scenario()).expect(name);
@@ -156,4 +156,25 @@ fn commands_estimated_from_the_tracker_let_the_calibration_filter_rest() {
     assert_eq!(run.update(Plan::new(&changed).expect("possible")), Anew::Evidence);
     assert!(run.judged.watched.is_none() && run.samples().all(|x| x.judgement.cusum.is_nan()));
     assert!(told.watched.is_some_and(|watched| marginal(&watched, &told.settings.placing, 6.0, 6.5).is_some()));
+}
+
+#[test]
+fn what_is_expected_beforehand_does_not_depend_on_how_often_the_tracker_reads() {
+    // A tracker that sees nothing: what is left is how long the robot has moved.
+    let last = |rate: f64| {
+        let mut scenario = find("bench").and_then(|preset| preset.scenario()).expect("preset");
+        scenario.detection.detectors.set(Method::Cusum, true);
+        scenario.contact.place = Place::Nowhere;
+        scenario.tracker.rate = rate;
+        scenario.prior.position_noise = Estimated::Known(1.0);
+        scenario.prior.orientation_noise = Estimated::Known(3.0);
+        let run = simulate(&scenario).expect("a run");
+        let moves = scenario.motion.finish - scenario.motion.start;
+        let watched = run.judged.watched.as_ref().expect("watched");
+        let contact = watched.heard.last().expect("a reading").contact;
+        assert!((contact - (1.0 - (-0.1 * moves).exp())).abs() < 0.01, "{rate} Hz: {contact}");
+        contact
+    };
+    let [slow, fast] = [100.0, 1000.0].map(last);
+    assert!((slow - fast).abs() < 1e-3, "{slow} and {fast}");
 }

@@ -108,33 +108,32 @@ pub struct Known<'a> {
 /// The estimates of an event at these times since its alarm (s), as far as there are entries so late.
 #[must_use]
 pub fn estimates(known: &Known, event: &Event, after: &[f64]) -> Vec<Estimated> {
-    let placing = &known.settings.placing;
-    let ask = |after: f64, estimator: Estimator| {
-        let time = event.raised + after;
-        if known.entries.last().is_none_or(|last| last.time < time) {
-            return None;
-        }
-        let plain = |location| {
-            let (contact_time, kinds, calibration) = (None, BTreeMap::new(), None);
-            Estimated { after, time, estimator, location, contact_time, kinds, calibration }
-        };
-        match estimator {
-            Estimator::Eq24 => Some(plain(eq24(known, time)?)),
-            Estimator::Settled => {
-                let settings = known.settings;
-                let whole = settings.filter.length as f64 / settings.loop_rate;
-                Some(plain(eq24(known, time + whole)?))
-            }
-            Estimator::Marginal => {
-                let estimate = marginal(known.watched?, placing, event.raised, time)?;
-                let kinds = estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect();
-                let calibration = Some(Calibrated::of(&estimate.calibration));
-                Some(Estimated { contact_time: Some(estimate.began), kinds, calibration, ..plain(estimate.place) })
-            }
-        }
+    let estimators: Vec<Estimator> = known.settings.placing.estimators.iter().collect();
+    let all = after.iter().flat_map(|&after| estimators.iter().map(move |&estimator| (after, estimator)));
+    all.filter_map(|(after, estimator)| estimate(known, event.raised, after, estimator)).collect()
+}
+
+/// What one estimator says so long after an alarm (s). `None` where there are no entries so late, or it cannot tell.
+#[must_use]
+pub fn estimate(known: &Known, alarm: f64, after: f64, estimator: Estimator) -> Option<Estimated> {
+    let time = alarm + after;
+    if known.entries.last().is_none_or(|last| last.time < time) {
+        return None;
+    }
+    let plain = |location| {
+        let (contact_time, kinds, calibration) = (None, BTreeMap::new(), None);
+        Estimated { after, time, estimator, location, contact_time, kinds, calibration }
     };
-    let estimators: Vec<Estimator> = placing.estimators.iter().collect();
-    after.iter().flat_map(|&after| estimators.iter().filter_map(move |&estimator| ask(after, estimator))).collect()
+    Some(match estimator {
+        Estimator::Eq24 => plain(eq24(known, time)?),
+        Estimator::Settled => plain(eq24(known, time + known.settings.filter_span())?),
+        Estimator::Marginal => {
+            let estimate = marginal(known.watched?, &known.settings.placing, alarm, time)?;
+            let kinds = estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect();
+            let calibration = Some(Calibrated::of(&estimate.calibration));
+            Estimated { contact_time: Some(estimate.began), kinds, calibration, ..plain(estimate.place) }
+        }
+    })
 }
 
 /// The place that Eq. 24 gives at a time (s). `None` where the sensor has no centrode then, or there is no such entry.

@@ -5,7 +5,7 @@ use super::calibration::monitor::{Monitor, Readings, Watching};
 use super::calibration::noise::{self, Whiteness};
 use super::calibration::watched::Watched;
 use super::calibration::{Belief, Command, Noise};
-use super::estimates::{Estimated, Known, Placing, estimates};
+use super::estimates::{Estimated, Known, Placing, estimate, estimates};
 use super::evidence::{Evidence, Observer};
 use super::nominal::{Clock, Nominal};
 use super::statistic::Method;
@@ -13,7 +13,7 @@ use crate::model::configuration::bend_from_theta_l;
 use crate::model::{Assumed, Assumption, Configuration, Segment};
 use crate::record::{Entry, Recorder, Recording};
 use crate::scenario::motion::command;
-use crate::scenario::{ContactKind, Estimation, EstimationKind, Filter, Plan, Prior, Scenario, Thresholds};
+use crate::scenario::{ContactKind, Estimation, EstimationKind, Estimator, Filter, Plan, Prior, Scenario, Thresholds};
 
 /// What a recording is judged with.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,6 +63,12 @@ impl Settings {
     #[must_use]
     pub fn on(&self, recording: &Recording) -> Self {
         Self { commanded: recording.commanded, ..self.clone() }
+    }
+
+    /// How long it takes until the average holds nothing from before, s.
+    #[must_use]
+    pub fn filter_span(&self) -> f64 {
+        self.filter.length as f64 / self.loop_rate
     }
 
     /// Whether a detector judges that rests on the calibration filter, on commands with which that can work.
@@ -288,13 +294,22 @@ impl Judged {
     /// Where the contact is that an event tells of, at these times after its alarm (s).
     #[must_use]
     pub fn estimates_of(&self, recording: &Recording, event: &Event, after: &[f64]) -> Vec<Estimated> {
-        let known = Known {
+        estimates(&self.known(recording), event, after)
+    }
+
+    /// What one estimator says so long after an alarm (s). `None` where there are no entries so late, or it cannot tell.
+    #[must_use]
+    pub fn estimate(&self, recording: &Recording, alarm: f64, after: f64, estimator: Estimator) -> Option<Estimated> {
+        estimate(&self.known(recording), alarm, after, estimator)
+    }
+
+    fn known<'a>(&'a self, recording: &'a Recording) -> Known<'a> {
+        Known {
             entries: &recording.entries,
             evidence: &self.evidence,
             watched: self.watched.as_ref(),
             settings: &self.settings,
-        };
-        estimates(&known, event, after)
+        }
     }
 
     /// Whether the calibration filter's innovations are white, up to where a contact can have begun; none where it did not watch, or too

@@ -19,7 +19,7 @@ use super::{Job, Progress};
 use crate::detect::Method;
 use crate::detect::calibration::bound::Drawing;
 use crate::run::at_most;
-use crate::scenario::{Detectors, Plan, Scenario, ScenarioError, Thresholds};
+use crate::scenario::{Detectors, Estimator, Plan, Scenario, ScenarioError, Thresholds};
 use limits::Limits;
 use outcome::{Making, Task};
 use serde::{Deserialize, Serialize};
@@ -266,6 +266,11 @@ fn judged(spec: &Spec) -> Scenario {
     }
     // Places need the alarms of their detector.
     detection.detectors.set(spec.detector, true);
+    // And the posterior needs the calibration filter.
+    let watches = [Method::Cusum, Method::Glr].into_iter().any(|method| detection.detectors.has(method));
+    if !watches && scenario.estimation.estimators.has(Estimator::Marginal) {
+        detection.detectors.set(Method::Cusum, true);
+    }
     scenario
 }
 

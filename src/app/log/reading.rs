@@ -1,7 +1,7 @@
 //! A log that is being read: by a helper, or a few rows in each frame.
 
 use super::file::{File, Kept, Parts};
-use crate::app::stages::tuner::Helper;
+use crate::app::helper::Helper;
 use centrode_core::record::log::mcap::Topic;
 use centrode_core::record::log::remote::{Answer, Outcome, Request};
 use centrode_core::record::log::{Log, LogError, Options, Progress, Reader};

@@ -153,6 +153,14 @@ impl Placed {
         Some((alarm, AFTER.iter().take(made).take_while(passed).count().checked_sub(1)))
     }
 
+    /// The alarm that stands at a time (s), and the longest of [`AFTER`] since it that is not longer than what has passed less `lag` (s).
+    #[must_use]
+    pub fn passed(&self, time: f64, lag: f64) -> Option<(Alarm, f64)> {
+        let alarm = self.alarm_at(time).filter(|alarm| alarm.cleared.is_none_or(|cleared| cleared > time))?;
+        let after = AFTER.into_iter().rfind(|after| alarm.raised + after + lag <= time + 1e-9)?;
+        Some((alarm, after))
+    }
+
     /// What is known at a time (s); none before an alarm, once its contact has been left, and where contacts are not placed.
     #[must_use]
     pub fn at(&self, time: f64) -> Option<Shown<'_>> {

@@ -44,7 +44,7 @@ impl<'a> Part<'a> {
     /// The share of runs without contact that may alarm.
     pub fn wish(tuning: Tuning) -> Self {
         let chosen = WISHES.iter().position(|(wish, _)| *wish == tuning.wish).unwrap_or(WISHES.len());
-        Self::one("False alarms, at most", WISHES.map(|(_, name)| name).to_vec(), chosen, 196.0)
+        Self::one("False alarms, at most", WISHES.map(|(_, name)| name).to_vec(), chosen, 168.0)
     }
 
     /// Repeats of each run.

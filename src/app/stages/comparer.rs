@@ -1,11 +1,11 @@
 //! The comparison behind the view of detectors: kept up with the scenario, made by a helper elsewhere or a part a frame.
 
-use crate::app::stages::tuner::Helper;
+use crate::app::helper::{Asking, Helper, Turn};
 use crate::app::state::Tuning;
 use centrode_core::detect::Method;
 use centrode_core::scenario::Scenario;
-use centrode_core::study::compare::{Compare, CompareError, Comparison, Piece, Spec, with};
-use centrode_core::study::remote::{Answer, Found, Request, Work};
+use centrode_core::study::compare::{Compare, CompareError, Comparison, Spec, with};
+use centrode_core::study::remote::{Found, Work};
 use centrode_core::study::report::AFTER;
 use centrode_core::study::{Job, Progress};
 use serde_json::{Value, json};
@@ -18,7 +18,7 @@ const ENOUGH: u64 = 20;
 /// The comparison and who makes it.
 #[derive(Debug)]
 pub struct Comparer {
-    helper: Option<Box<dyn Helper>>,
+    asking: Asking,
     /// What it was made for; none while nobody looks.
     inputs: Option<Spec>,
     compare: Option<Compare>,
@@ -26,12 +26,8 @@ pub struct Comparer {
     before: Option<Compare>,
     /// What there is to see comes to this, of which version.
     comparison: Option<(u64, Comparison)>,
-    request: u32,
-    asked: bool,
-    held: bool,
     version: u64,
     refused: Option<CompareError>,
-    trouble: Option<String>,
 }
 
 impl Comparer {
@@ -39,17 +35,13 @@ impl Comparer {
     #[must_use]
     pub fn new(helper: Option<Box<dyn Helper>>) -> Self {
         Self {
-            helper,
+            asking: Asking::new(helper),
             inputs: None,
             compare: None,
             before: None,
             comparison: None,
-            request: 0,
-            asked: false,
-            held: false,
             version: 0,
             refused: None,
-            trouble: None,
         }
     }
 
@@ -59,7 +51,7 @@ impl Comparer {
         let Some(scenario) = scenario else {
             if self.inputs.take().is_some() {
                 self.refused = None;
-                self.rest();
+                self.asking.rest();
             }
             return;
         };
@@ -78,7 +70,7 @@ impl Comparer {
             return;
         }
         let back = self.inputs.replace(spec.clone()).is_none();
-        self.held &= back;
+        self.asking.hold(self.asking.is_held() && back);
         let old = self.compare.take();
         match Compare::new(spec) {
             Ok(mut compare) => {
@@ -93,69 +85,29 @@ impl Comparer {
             }
         }
         self.version += 1;
-        self.rest();
+        self.asking.rest();
         self.reckon();
-    }
-
-    /// Ends what the helper does. What it may still answer belongs to a request of the past.
-    fn rest(&mut self) {
-        self.request += 1;
-        if std::mem::take(&mut self.asked)
-            && let Some(helper) = &mut self.helper
-        {
-            helper.ask(None);
-        }
     }
 
     /// Stops, or goes on.
     pub fn hold(&mut self, held: bool) {
-        self.held = held;
-        if held {
-            self.rest();
-        }
+        self.asking.hold(held);
     }
 
     /// Takes what has come and asks for what is missing, or makes a part; returns whether the next frame should come at once for it.
     pub fn work(&mut self) -> bool {
         let Some(compare) = self.compare.as_mut().filter(|_| self.inputs.is_some()) else { return false };
         let before = compare.progress();
-        let mut failure = None;
-        if let Some(helper) = &mut self.helper {
-            for answer in helper.take() {
-                match Answer::from_bytes(&answer) {
-                    Ok(Answer { id, found: Found::Detectors(pieces) }) if id == self.request => {
-                        if !pieces.into_iter().all(|made| compare.add(made)) {
-                            failure = Some("its answer belongs to another comparison".into());
-                        }
-                    }
-                    // What answers a request of the past, or of another study, is no longer of use.
-                    Ok(_) => {}
-                    Err(error) => failure = Some(format!("its answer cannot be read: {error}")),
-                }
-            }
-            failure = helper.failure().or(failure);
-        }
-        let mut busy = false;
-        if !self.held && failure.is_none() && !compare.progress().is_complete() {
-            match &mut self.helper {
-                Some(helper) if !self.asked => {
-                    self.request += 1;
-                    let pieces: Vec<Piece> = compare.missing().collect();
-                    let work = Work::Detectors { spec: compare.spec().clone(), pieces };
-                    match serde_json::to_string(&Request { id: self.request, work }) {
-                        Ok(request) => {
-                            helper.ask(Some(&request));
-                            self.asked = true;
-                        }
-                        Err(error) => failure = Some(format!("it cannot be asked: {error}")),
-                    }
-                }
-                Some(_) => {}
-                None => {
-                    compare.step();
-                    busy = true;
-                }
-            }
+        let taken = self.asking.take(|found| match found {
+            Found::Detectors(pieces) => pieces.into_iter().all(|made| compare.add(made)),
+            _ => true,
+        });
+        let turn = taken.and_then(|()| {
+            let work = || Work::Detectors { spec: compare.spec().clone(), pieces: compare.missing().collect() };
+            self.asking.ask(compare.progress(), work)
+        });
+        if turn == Ok(Turn::Make) {
+            compare.step();
         }
         let (progress, young) = (compare.progress(), is_young(compare));
         if progress != before {
@@ -163,21 +115,15 @@ impl Comparer {
             self.before = self.before.take().filter(|_| young);
             self.reckon();
         }
-        let left = !progress.is_complete();
-        if let Some(failure) = failure {
-            self.give_up(failure);
-            return left && !self.held;
+        match turn {
+            Ok(turn) => turn == Turn::Make && !progress.is_complete(),
+            Err(why) => {
+                self.asking.give_up(why);
+                self.version += 1;
+                self.reckon();
+                !self.asking.is_held() && !progress.is_complete()
+            }
         }
-        busy && left
-    }
-
-    /// Does without the helper from now on.
-    fn give_up(&mut self, why: String) {
-        self.rest();
-        self.helper = None;
-        self.trouble = Some(why);
-        self.version += 1;
-        self.reckon();
     }
 
     /// What is on view comes to this.
@@ -203,7 +149,7 @@ impl Comparer {
     /// How far it is; none when nothing is left, nobody looks or it is held.
     #[must_use]
     pub fn progress(&self) -> Option<Progress> {
-        self.left().filter(|_| !self.held)
+        self.left().filter(|_| !self.asking.is_held())
     }
 
     /// How far it is; none when nothing is left or nobody looks.
@@ -223,7 +169,7 @@ impl Comparer {
     /// Whether it was stopped.
     #[must_use]
     pub fn is_held(&self) -> bool {
-        self.held
+        self.asking.is_held()
     }
 
     /// Why there is nothing to see.
@@ -235,7 +181,7 @@ impl Comparer {
     /// Why the helper was given up, if it was.
     #[must_use]
     pub fn trouble(&self) -> Option<&str> {
-        self.trouble.as_deref()
+        self.asking.trouble()
     }
 
     /// The same as JSON for whoever reads the page without eyes, with the progress in pieces of work.
@@ -246,8 +192,8 @@ impl Comparer {
         Some(json!({
             "done": progress.done,
             "of": progress.of,
-            "helper": self.helper.is_some(),
-            "held": self.held,
+            "helper": self.asking.has_helper(),
+            "held": self.asking.is_held(),
             "repeats": comparison.repeats,
             "soonest": comparison.soonest,
             "bound": comparison.bound,

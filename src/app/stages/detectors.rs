@@ -30,6 +30,8 @@ const LEAST: f32 = 176.0;
 const MOST: f32 = 620.0;
 /// Height of a picture where they stand below each other.
 const PHONE: f32 = 270.0;
+/// What stays free below them, so that the heading of what follows is in sight whole.
+const BELOW: f32 = 38.0;
 const GAP: f32 = 12.0;
 /// Size of the charts' text, points.
 const TEXT: f32 = 11.0;
@@ -42,6 +44,15 @@ pub struct DetectorsState {
     delays: Option<Picture<u64>>,
     errors: Option<Picture<u64>>,
     coverage: Option<Picture<u64>>,
+}
+
+/// What the pictures are drawn from.
+struct View<'a> {
+    comparison: &'a Comparison,
+    version: u64,
+    rule: Xi1Rule,
+    /// Whether a click takes a threshold: those of the settings before are only looked at.
+    takes: bool,
 }
 
 /// Why there is nothing to compare, in the page's terms.
@@ -72,11 +83,15 @@ pub fn detectors(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut Detec
         let Some((_, comparison, version)) = inputs.comparer.shown() else { return };
         summary(ui, comparison, inputs, out);
         tuning::trouble(ui, inputs, &theme);
+        if comparison.repeats == 0 {
+            return;
+        }
         ui.add_space(2.0);
         let used = ui.cursor().top() - top;
         let line = words::command(inputs);
         let room = rect.height() - used;
-        pictures(ui, beside, room, (comparison, version, words::rule(inputs)), state, out);
+        let takes = !inputs.comparer.is_former();
+        pictures(ui, beside, room, &View { comparison, version, rule: words::rule(inputs), takes }, state, out);
         advice::advice(ui, comparison, inputs, out);
         ui.add_space(8.0);
         if !beside {
@@ -87,28 +102,21 @@ pub fn detectors(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, state: &mut Detec
 }
 
 /// The picture of delays, and beside it, where there is room, those of places; `room` is the height that is in sight.
-fn pictures(
-    ui: &mut Ui,
-    beside: bool,
-    room: f32,
-    (comparison, version, rule): (&Comparison, u64, Xi1Rule),
-    state: &mut DetectorsState,
-    out: &mut Vec<Command>,
-) {
+fn pictures(ui: &mut Ui, beside: bool, room: f32, view: &View<'_>, state: &mut DetectorsState, out: &mut Vec<Command>) {
     let least = if beside { 2.0 * LEAST + GAP } else { PHONE };
-    let (_, area) = ui.allocate_space(vec2(ui.available_width(), (room - 8.0).clamp(least, MOST.max(least))));
+    let (_, area) = ui.allocate_space(vec2(ui.available_width(), (room - BELOW).clamp(least, MOST.max(least))));
     if !beside {
-        return delays(ui, area, (comparison, version, rule), &mut state.delays, out);
+        return delays(ui, area, view, &mut state.delays, out);
     }
     let [left, right] = [0.0, 0.5].map(|from| {
         let width = 0.5 * (area.width() - GAP);
         Rect::from_min_size(area.min + vec2(from * (area.width() + GAP), 0.0), vec2(width, area.height()))
     });
-    delays(ui, left, (comparison, version, rule), &mut state.delays, out);
+    delays(ui, left, view, &mut state.delays, out);
     let half = 0.5 * (right.height() - GAP);
     let [above, below] = [right.with_max_y(right.top() + half), right.with_min_y(right.bottom() - half)];
-    picture(ui, above, (version, chart::errors), comparison, &mut state.errors);
-    picture(ui, below, (version, chart::coverage), comparison, &mut state.coverage);
+    picture(ui, above, (view.version, chart::errors), view.comparison, &mut state.errors);
+    picture(ui, below, (view.version, chart::coverage), view.comparison, &mut state.coverage);
 }
 
 /// The pictures of places, below each other.
@@ -131,7 +139,7 @@ fn choose(ui: &mut Ui, inputs: &Inputs<'_>, beside: bool, out: &mut Vec<Command>
     let tuning = inputs.tuning;
     let chosen = Method::ALL.iter().map(|&method| tuning.compare.has(method)).collect();
     let names = Method::ALL.iter().map(|&method| words::short(method)).collect();
-    let compare = Part::several("Compare", names, chosen, (560.0, 3));
+    let compare = Part::several("Compare", names, chosen, (456.0, 3));
     let parts = [compare, Part::wish(tuning), Part::repeats(tuning)];
     let comparer = inputs.comparer;
     let study = comparer.left_repeats().map(|[made, of]| (format!("{made} of {of} repeats"), comparer.is_held()));
@@ -191,24 +199,18 @@ fn picture(
 }
 
 /// The curves of all detectors; the pointer reads the nearest threshold, a click takes it.
-fn delays(
-    ui: &mut Ui,
-    rect: Rect,
-    (comparison, version, rule): (&Comparison, u64, Xi1Rule),
-    kept: &mut Option<Picture<u64>>,
-    out: &mut Vec<Command>,
-) {
+fn delays(ui: &mut Ui, rect: Rect, view: &View<'_>, kept: &mut Option<Picture<u64>>, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let Some(place) = picture(ui, rect, (version, chart::delays), comparison, kept) else { return };
+    let Some(place) = picture(ui, rect, (view.version, chart::delays), view.comparison, kept) else { return };
     let response = ui.interact(place.data(), ui.make_persistent_id("thresholds"), Sense::click());
     let response = response.on_hover_cursor(CursorIcon::Crosshair);
     let Some(pointer) = response.hover_pos().or(response.interact_pointer_pos()) else { return };
-    let Some((compared, point, at)) = nearest(comparison, &place, pointer) else { return };
-    if response.clicked() {
+    let Some((compared, point, at)) = nearest(view.comparison, &place, pointer) else { return };
+    if response.clicked() && view.takes {
         out.push(Command::TakeDetector { method: compared.method(), threshold: point.threshold });
     }
     ui.painter().circle_stroke(at, 4.5, Stroke::new(1.5, theme.ink));
-    notation::note(ui.painter(), &theme, at, place.data(), words::note(compared, point, rule, &theme));
+    notation::note(ui.painter(), &theme, at, place.data(), words::note(compared, point, view.rule, &theme));
 }
 
 fn nearest<'a>(comparison: &'a Comparison, place: &Place, pointer: Pos2) -> Option<(&'a Compared, &'a Point, Pos2)> {

@@ -1,9 +1,10 @@
 //! The study behind the tuning view: kept up with the scenario, made by a helper elsewhere or a few runs a frame.
 
+use crate::app::helper::{Asking, Helper, Turn};
 use centrode_core::detect::Method;
 use centrode_core::scenario::overrides::whole;
 use centrode_core::scenario::{Override, Place, Scenario, ScenarioError, Threshold, Thresholds};
-use centrode_core::study::remote::{Answer, Found, Request, Work};
+use centrode_core::study::remote::{Found, Work};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::study::tuning::{Point, Spec, Study};
 use centrode_core::study::{Job, Progress};
@@ -22,18 +23,6 @@ const PIECES_PER_SECOND: f32 = 50.0;
 /// A study stays on view until the next one has repeated its own cell so often.
 const ENOUGH: u64 = 20;
 
-/// Somebody who makes studies elsewhere, such as a worker of the page.
-pub trait Helper: std::fmt::Debug {
-    /// Makes this request (JSON of [`Request`]) from now on, and nothing asked before; `None` for nothing at all.
-    fn ask(&mut self, request: Option<&str>);
-
-    /// The answers (see [`Answer`]) that have come since this was last called.
-    fn take(&mut self) -> Vec<Vec<u8>>;
-
-    /// Why it can no longer be relied on, if so. The rest is made here then.
-    fn failure(&self) -> Option<String>;
-}
-
 /// What the study compares, by cell.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Cells {
@@ -46,23 +35,18 @@ pub struct Cells {
 /// The study and who makes it.
 #[derive(Debug)]
 pub struct Tuner {
-    helper: Option<Box<dyn Helper>>,
+    asking: Asking,
     /// What it was made for; none while nobody looks.
     inputs: Option<(Scenario, usize)>,
     study: Option<(Study, Cells)>,
     /// What is shown of a rule of which the study has hardly begun.
     before: Option<(Study, Cells)>,
-    request: u32,
-    asked: bool,
-    held: bool,
     version: u64,
     refused: Option<ScenarioError>,
     /// The thresholds that are set, which may be on their way while the study is one of those before.
     thresholds: Thresholds,
     /// Studies begun.
     begun: u64,
-    /// Why the helper was given up.
-    trouble: Option<String>,
 }
 
 impl Tuner {
@@ -70,18 +54,14 @@ impl Tuner {
     #[must_use]
     pub fn new(helper: Option<Box<dyn Helper>>) -> Self {
         Self {
-            helper,
+            asking: Asking::new(helper),
             inputs: None,
             study: None,
             before: None,
-            request: 0,
-            asked: false,
-            held: false,
             version: 0,
             refused: None,
             thresholds: Thresholds::default(),
             begun: 0,
-            trouble: None,
         }
     }
 
@@ -93,7 +73,7 @@ impl Tuner {
         let Some(scenario) = scenario else {
             if self.inputs.take().is_some() {
                 self.refused = None;
-                self.rest();
+                self.asking.rest();
             }
             return;
         };
@@ -113,7 +93,7 @@ impl Tuner {
         }
         // Whoever comes back finds a study held as it was left; a new one begins.
         let back = self.inputs.replace((scenario.clone(), repeats)).is_none();
-        self.held &= back;
+        self.asking.hold(self.asking.is_held() && back);
         let old = self.study.take();
         let made = spec(&scenario, repeats).and_then(|(spec, cells)| Ok((Study::new(spec)?, cells)));
         match made {
@@ -136,25 +116,12 @@ impl Tuner {
         }
         self.begun += 1;
         self.version += 1;
-        self.rest();
-    }
-
-    /// Ends what the helper does. What it may still answer belongs to a request of the past.
-    fn rest(&mut self) {
-        self.request += 1;
-        if std::mem::take(&mut self.asked)
-            && let Some(helper) = &mut self.helper
-        {
-            helper.ask(None);
-        }
+        self.asking.rest();
     }
 
     /// Stops, or goes on.
     pub fn hold(&mut self, held: bool) {
-        self.held = held;
-        if held {
-            self.rest();
-        }
+        self.asking.hold(held);
     }
 
     /// Takes what has come and asks for what is missing, or makes a few runs; `frame` is how long frames take, s.
@@ -162,66 +129,33 @@ impl Tuner {
     pub fn work(&mut self, frame: f32) -> bool {
         let Some((study, _)) = self.study.as_mut().filter(|_| self.inputs.is_some()) else { return false };
         let before = study.progress();
-        let mut failure = None;
-        if let Some(helper) = &mut self.helper {
-            for answer in helper.take() {
-                match Answer::from_bytes(&answer) {
-                    // What answers a request of the past, or of another study, is no longer of use.
-                    Ok(Answer { id, found: Found::Thresholds(tallies) }) if id == self.request => {
-                        let mut tallies = tallies.into_iter();
-                        if !tallies.all(|(batch, tally)| study.set(batch as usize, tally)) {
-                            failure = Some("its answer belongs to another study".into());
-                        }
-                    }
-                    Ok(_) => {}
-                    Err(error) => failure = Some(format!("its answer cannot be read: {error}")),
-                }
-            }
-            failure = helper.failure().or(failure);
+        let taken = self.asking.take(|found| match found {
+            Found::Thresholds(tallies) => tallies.into_iter().all(|(batch, tally)| study.set(batch as usize, tally)),
+            _ => true,
+        });
+        let turn = taken.and_then(|()| {
+            let work = || Work::Thresholds { spec: study.spec().clone(), batches: study.missing() };
+            self.asking.ask(study.progress(), work)
+        });
+        if turn == Ok(Turn::Make) {
+            let pieces = ((frame * PIECES_PER_SECOND) as usize).clamp(PIECES[0], PIECES[1]);
+            (0..pieces).for_each(|_| study.step());
         }
-        let mut busy = false;
-        if !self.held && failure.is_none() && !study.progress().is_complete() {
-            match &mut self.helper {
-                Some(helper) if !self.asked => {
-                    self.request += 1;
-                    let work = Work::Thresholds { spec: study.spec().clone(), batches: study.missing() };
-                    let request = Request { id: self.request, work };
-                    match serde_json::to_string(&request) {
-                        Ok(request) => {
-                            helper.ask(Some(&request));
-                            self.asked = true;
-                        }
-                        Err(error) => failure = Some(format!("it cannot be asked: {error}")),
-                    }
-                }
-                Some(_) => {}
-                None => {
-                    let pieces = ((frame * PIECES_PER_SECOND) as usize).clamp(PIECES[0], PIECES[1]);
-                    (0..pieces).for_each(|_| study.step());
-                    busy = true;
-                }
-            }
-        }
-        if study.progress() != before {
+        let progress = study.progress();
+        if progress != before {
             self.version += 1;
             if !Rule::ALL.iter().any(|&rule| is_young(study, rule)) {
                 self.before = None;
             }
         }
-        let left = !study.progress().is_complete();
-        if let Some(failure) = failure {
-            self.give_up(failure);
-            return left && !self.held;
+        match turn {
+            Ok(turn) => turn == Turn::Make && !progress.is_complete(),
+            Err(why) => {
+                self.asking.give_up(why);
+                self.version += 1;
+                !self.asking.is_held() && !progress.is_complete()
+            }
         }
-        busy && left
-    }
-
-    /// Does without the helper from now on.
-    fn give_up(&mut self, why: String) {
-        self.rest();
-        self.helper = None;
-        self.trouble = Some(why);
-        self.version += 1;
     }
 
     /// What there is to see of a rule, what its cells are, and a number that changes with both.
@@ -247,7 +181,7 @@ impl Tuner {
     /// How far the study is; none when nothing is left, nobody looks or it is held.
     #[must_use]
     pub fn progress(&self) -> Option<Progress> {
-        self.left().filter(|_| !self.held)
+        self.left().filter(|_| !self.asking.is_held())
     }
 
     /// How far the study is; none when nothing is left or nobody looks.
@@ -260,13 +194,13 @@ impl Tuner {
     /// Whether it was stopped.
     #[must_use]
     pub fn is_held(&self) -> bool {
-        self.held
+        self.asking.is_held()
     }
 
     /// Whether a helper makes it.
     #[must_use]
     pub fn has_helper(&self) -> bool {
-        self.helper.is_some()
+        self.asking.has_helper()
     }
 
     /// Why there is nothing to see.
@@ -278,7 +212,7 @@ impl Tuner {
     /// Why the helper was given up, if it was.
     #[must_use]
     pub fn trouble(&self) -> Option<&str> {
-        self.trouble.as_deref()
+        self.asking.trouble()
     }
 
     /// The threshold of a rule that is set, m, N·m, or k; none while it is switched off.
@@ -331,7 +265,7 @@ impl Tuner {
             "of": progress.of,
             "method": rule.name(),
             "helper": self.has_helper(),
-            "held": self.held,
+            "held": self.asking.is_held(),
             "begun": self.begun,
             "own": self.own(rule),
         }))

@@ -7,7 +7,7 @@ use centrode_core::detect::Method;
 use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::plant::Happening;
 use centrode_core::run::Run;
-use centrode_core::scenario::Kind;
+use centrode_core::scenario::{Estimator, Kind};
 
 /// From this probability on, one kind of contact is named.
 const SURE: f64 = 0.95;
@@ -27,10 +27,30 @@ pub fn sentence(run: &Run, placed: &Placed, time: f64) -> Option<String> {
     if let Some(cleared) = alarm.cleared.filter(|cleared| *cleared <= time) {
         return Some(format!("{told}; cleared at {} s.", number(cleared, 2)));
     }
+    let beside = beside(run, placed, time);
     Some(match placed.at(time) {
-        None => format!("{told}."),
-        Some(shown) => format!("{told}; {}", place(&shown)),
+        None => format!("{told}.{beside}"),
+        Some(shown) => format!("{told}; {}{beside}", place(&shown)),
     })
+}
+
+/// Where Eq. 24 places the contact of the same alarm, at once and once the average holds nothing from before, as far as that is asked for.
+fn beside(run: &Run, placed: &Placed, time: f64) -> String {
+    let settings = &run.judged.settings;
+    let span = settings.filter_span();
+    let said = |estimator: Estimator| {
+        let lag = if estimator == Estimator::Settled { span } else { 0.0 };
+        let Some((alarm, after)) = placed.passed(time, lag) else {
+            return format!(" Eq. 24 settles {} s after the alarm.", number(span, 2));
+        };
+        let name = if estimator == Estimator::Settled { "Eq. 24, settled" } else { "Eq. 24" };
+        match run.judged.estimate(&run.recording, alarm.raised, after, estimator) {
+            Some(made) => format!(" {name}: {} mm.", number(made.location.mode * 1e3, 1)),
+            None => format!(" {name}: no place, for the sensor has no centrode then."),
+        }
+    };
+    let plain = [Estimator::Eq24, Estimator::Settled];
+    plain.into_iter().filter(|&estimator| settings.placing.estimators.has(estimator)).map(said).collect()
 }
 
 /// The alarm, against the truth where that is known.
@@ -125,7 +145,7 @@ mod tests {
     use super::*;
     use centrode_core::run::simulate;
     use centrode_core::scenario::preset::find;
-    use centrode_core::scenario::{Contact, Scenario};
+    use centrode_core::scenario::{Choice, Contact, Scenario};
 
     fn made(scenario: &Scenario) -> (Run, Placed) {
         let run = simulate(scenario).expect("run");
@@ -152,6 +172,27 @@ mod tests {
         assert!(at.starts_with("CUSUM tells of a contact 0.0") && !at.contains("narrows"), "{at}");
         assert!(at.contains(" mm with 95 %. Clamp or plane: cannot tell yet ("), "{at}");
         assert!(later.contains(" mm with 95 %, which narrows to ") && later.contains(" mm 0.50 s later. "), "{later}");
+    }
+
+    #[test]
+    fn every_estimator_that_is_asked_for_has_its_say() {
+        let mut scenario = bench();
+        let say = |scenario: &Scenario, after: f64| {
+            let (run, mut placed) = made(scenario);
+            let raised = placed.alarms().first().expect("an alarm").raised;
+            while placed.work(&run, raised + after) {}
+            sentence(&run, &placed, raised + after).expect("it judges")
+        };
+        assert!(!say(&scenario, 1.5).contains("Eq. 24"));
+        scenario.estimation.estimators = Choice::of(Estimator::ALL);
+        let [early, late] = [0.1, 1.5].map(|after| say(&scenario, after));
+        let span = scenario.filter.length as f64 / scenario.loop_rate;
+        assert!(early.contains(" mm with 95 %") && early.contains(" Eq. 24: "), "{early}");
+        assert!(early.ends_with(&format!(" Eq. 24 settles {} s after the alarm.", number(span, 2))), "{early}");
+        assert!(late.contains(" Eq. 24, settled: ") && late.ends_with(" mm."), "{late}");
+        scenario.estimation.estimators = Choice::of(&[Estimator::Eq24]);
+        let plain = say(&scenario, 1.5);
+        assert!(plain.contains(" after touch. Eq. 24: ") && !plain.contains("95 %"), "{plain}");
     }
 
     #[test]

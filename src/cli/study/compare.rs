@@ -92,7 +92,7 @@ fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
     )?;
     let own: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.own)).collect();
     let equal: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.equal)).collect();
-    let percent = format!("at the threshold that {} of runs without contact exceed", share(*rate));
+    let percent = format!("at the threshold that at most {} of these runs without contact exceed", share(*rate));
     for (title, rows, with_bound) in [("at the scenario's thresholds", own, false), (&percent, equal, true)] {
         writeln!(out, "\n{title}")?;
         let head = ["detector", "threshold", "", "false", "found", "early", "median", "90 %"];

@@ -56,6 +56,8 @@ pub struct Cusum {
     pub value: f64,
     /// Log odds of a contact by now; −∞ before one can have begun.
     odds: Odds,
+    /// Time of the reading before, s.
+    last: Option<f64>,
 }
 
 /// Odds of a contact, as a natural logarithm.
@@ -68,8 +70,10 @@ impl Default for Odds {
     }
 }
 
-/// Probability with which a contact begins at any one reading while the robot moves: one in ten seconds at 100 Hz.
-pub const HAZARD: f64 = 1e-3;
+/// Contacts that begin in a second while the robot moves, beforehand: one in ten seconds.
+pub const HAZARD: f64 = 0.1;
+/// No step is so long that one is more likely than not.
+const MOST: f64 = 0.5;
 
 impl Cusum {
     /// Takes the innovation of the next reading.
@@ -77,9 +81,12 @@ impl Cusum {
     pub fn step(&mut self, moment: &Moment, innovation: &Six) -> f64 {
         let added = moment.design.dot(innovation) - moment.half;
         self.value = (self.value + added).max(0.0);
+        let time = moment.command.time;
+        let elapsed = self.last.replace(time).map_or(0.0, |last| time - last);
         if moment.command.rate != 0.0 {
             // Shiryaev's recursion: what was, and what begins now.
-            self.odds.0 = log((exp(self.odds.0) + HAZARD) / (1.0 - HAZARD)) + added;
+            let begins = (HAZARD * elapsed).min(MOST);
+            self.odds.0 = log((exp(self.odds.0) + begins) / (1.0 - begins)) + added;
             // Beyond this the logarithm of the exponential would not be a number.
             self.odds.0 = self.odds.0.min(600.0);
         }

@@ -41,7 +41,7 @@ pub const LOAD: &[Control] = &[
     row("load.finish", "Full load from", 2, Linear(0.05)),
 ];
 
-/// What ξ1 is, what Eq. 24 takes the contact to be, and which detectors judge.
+/// What ξ1 is, what Eq. 24 takes the contact to be, which detectors judge, and what places the contact that they tell of.
 pub const CHOICES: &[Choice] = &[
     Choice {
         of: key("detection.xi1_rule"),
@@ -67,4 +67,11 @@ pub const CHOICES: &[Choice] = &[
         hint: "",
         options: &["FCD", "JFD", "FCD consistent", "FCD velocity", "CUSUM", "GLR"],
     },
+    Choice {
+        of: key("estimation.estimators"),
+        label: "Placed by",
+        hint: "After an alarm of CUSUM or GLR.",
+        options: &["Eq. 24", "settled", "marginal"],
+    },
+    Choice { of: key("estimation.plants"), label: "Thought possible", hint: "", options: &["a clamp", "a plane"] },
 ];

@@ -1,51 +1,12 @@
 //! The comparison with a helper in the same memory, and without.
 
 use super::*;
-use crate::app::stages::lent::Lent;
+use crate::app::helper::lent::Lent;
+use crate::app::helper::near::Near;
 use crate::app::stages::tuner::Tuner;
 use centrode_core::scenario::preset::find;
 use centrode_core::scenario::{Detectors, Threshold};
-use centrode_core::study::remote::Remote;
-use std::cell::RefCell;
-use std::rc::Rc;
-
-/// A worker in the same memory, and a hand on it from outside.
-#[derive(Debug, Default)]
-struct Desk {
-    remote: Option<Remote>,
-    asked: usize,
-    /// The last answer to a request is kept back until the next.
-    late: Option<Vec<u8>>,
-    broken: bool,
-}
-
-#[derive(Debug, Clone, Default)]
-struct Near(Rc<RefCell<Desk>>);
-
-impl Helper for Near {
-    fn ask(&mut self, request: Option<&str>) {
-        let mut desk = self.0.borrow_mut();
-        desk.asked += usize::from(request.is_some());
-        if let Some(mut old) = desk.remote.take() {
-            desk.late = Some(old.answer().expect("bytes"));
-        }
-        desk.remote = request.map(|request| Remote::new(request).expect("a request"));
-    }
-
-    fn take(&mut self) -> Vec<Vec<u8>> {
-        let mut desk = self.0.borrow_mut();
-        let mut answers: Vec<_> = desk.late.take().into_iter().collect();
-        if let Some(remote) = desk.remote.as_mut() {
-            let _ = (0..5).filter(|_| remote.step()).count();
-            answers.push(remote.answer().expect("bytes"));
-        }
-        answers
-    }
-
-    fn failure(&self) -> Option<String> {
-        self.0.borrow().broken.then(|| "it is gone".into())
-    }
-}
+use centrode_core::study::compare::Piece;
 
 fn bench() -> Scenario {
     let mut draft = find("bench").and_then(|preset| preset.draft()).expect("bench");

@@ -28,8 +28,10 @@ pub fn advice(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &m
         let soonest = comparison.soonest == Some(compared.detector);
         let line = words::line(compared, soonest, inputs);
         let taken = compared.taken();
+        // Those of the settings before are only looked at.
+        let takes = taken.filter(|_| !inputs.comparer.is_former());
         let mut text = rich(&line, 12.0, if taken.is_some() { theme.ink } else { theme.dim });
-        let room = if taken.is_some() { BUTTON.x + SPACE } else { 0.0 };
+        let room = if takes.is_some() { BUTTON.x + SPACE } else { 0.0 };
         text.wrap.max_width = (ui.available_width() - room).max(80.0);
         let height = ui.painter().layout_job(text.clone()).size().y.max(BUTTON.y) + 4.0;
         let (_, place) = ui.allocate_space(vec2(ui.available_width(), height));
@@ -37,7 +39,7 @@ pub fn advice(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &m
         let words = place.with_max_x(place.right() - room).with_min_y(place.top() + 3.0);
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(words).id_salt(compared.detector));
         said.add(Label::new(text).wrap());
-        if let Some(point) = taken {
+        if let Some(point) = takes {
             let at = Rect::from_min_size(place.right_top() + vec2(-BUTTON.x, 3.0), BUTTON);
             let name = format!("Take the threshold of {}", words::short(method));
             if named(ui, at, ("Take", &name), &theme) {

@@ -1,44 +1,8 @@
 //! The study with a helper in the same memory, and without.
 
 use super::*;
+use crate::app::helper::near::Near;
 use centrode_core::scenario::preset::find;
-use centrode_core::study::remote::Remote;
-use std::cell::RefCell;
-use std::rc::Rc;
-
-/// A worker in the same memory, and a hand on it from outside.
-#[derive(Debug, Default)]
-struct Desk {
-    remote: Option<Remote>,
-    asked: usize,
-    broken: bool,
-    babbles: bool,
-}
-
-#[derive(Debug, Clone, Default)]
-struct Near(Rc<RefCell<Desk>>);
-
-impl Helper for Near {
-    fn ask(&mut self, request: Option<&str>) {
-        let mut desk = self.0.borrow_mut();
-        desk.asked += usize::from(request.is_some());
-        desk.remote = request.map(|request| Remote::new(request).expect("a request"));
-    }
-
-    fn take(&mut self) -> Vec<Vec<u8>> {
-        let mut desk = self.0.borrow_mut();
-        let babbles = desk.babbles;
-        let remote = desk.remote.as_mut();
-        remote.map_or_else(Vec::new, |remote| {
-            let _ = (0..7).filter(|_| remote.step()).count();
-            vec![if babbles { vec![0xff; 9] } else { remote.answer().expect("bytes") }]
-        })
-    }
-
-    fn failure(&self) -> Option<String> {
-        self.0.borrow().broken.then(|| "it is gone".into())
-    }
-}
 
 fn bench() -> Scenario {
     find("bench").and_then(|preset| preset.scenario()).expect("bench")

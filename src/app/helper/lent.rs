@@ -1,6 +1,6 @@
 //! A helper that several studies ask in turn: what one has asked ends when another asks.
 
-use crate::app::stages::tuner::Helper;
+use crate::app::helper::Helper;
 use std::cell::RefCell;
 use std::rc::Rc;
 
