@@ -46,11 +46,15 @@ const LETTERS = ["a", "b", "c", "m", "s", "?"];
 export function elements(root, core, canvas) {
   const nodes = new Map();
   let focus = "";
+  // What has it from this update on.
+  let next = "";
   let asked = null;
   // Whether the keyboard is here, even while the element that had it is gone.
   let here = false;
+  let arranging = false;
 
   const act = (id, what, value = "") => core.mirror_act(id, what, String(value));
+  const writing = () => canvas().parentElement.querySelector(":scope > input") ?? {};
   const element = (target) => nodes.get(target?.dataset?.id);
 
   function make(id, kind) {
@@ -74,7 +78,7 @@ export function elements(root, core, canvas) {
 
   function describe(entry, state) {
     const { node, kind } = entry;
-    const { name, description, value, number, min, max, step, on, open, disabled, focusable } = state;
+    const { name, description, value, number, min, max, step, on, open, disabled, digits, focusable } = state;
     if (kind === "heading") {
       // The first one in a dialog is its title.
       const dialog = node.closest('[data-kind="dialog"]');
@@ -105,6 +109,11 @@ export function elements(root, core, canvas) {
       if (Number(node.value) !== number) node.value = number;
     }
     if (kind === "progress") node.value = number ?? 0;
+    if (kind === "field") {
+      set(node, "inputmode", digits ? "decimal" : null);
+      // On a phone what is typed goes into the field beside the canvas, and its keyboard comes up.
+      if (state.id === next) writing().inputMode = digits ? "decimal" : "text";
+    }
     if (TYPED.has(kind) && !entry.changed) {
       const text = value ?? String(number ?? "");
       if (node.value !== text) node.value = text;
@@ -120,7 +129,7 @@ export function elements(root, core, canvas) {
       node.remove();
       nodes.delete(id);
     }
-    const next = new Map();
+    const places = new Map();
     for (const state of list) {
       let entry = nodes.get(state.id);
       if (entry && entry.kind !== state.kind && !(TYPED.has(entry.kind) && TYPED.has(state.kind))) {
@@ -129,12 +138,12 @@ export function elements(root, core, canvas) {
       }
       if (!entry) nodes.set(state.id, (entry = make(state.id, state.kind)));
       const parent = nodes.get(state.within)?.node ?? root;
-      const place = next.has(parent) ? next.get(parent) : start(parent);
+      const place = places.has(parent) ? places.get(parent) : start(parent);
       // Only what is out of its place is moved: an element that is moved loses the keyboard.
-      if (entry.node === place) next.set(parent, place.nextSibling);
+      if (entry.node === place) places.set(parent, place.nextSibling);
       else {
         parent.insertBefore(entry.node, place);
-        next.set(parent, place);
+        places.set(parent, place);
       }
       describe(entry, state);
     }
@@ -161,13 +170,24 @@ export function elements(root, core, canvas) {
     const entry = nodes.get(now);
     if (entry && now !== before && now !== asked) entry.node.focus({ preventScroll: true });
     else if (active && !entry && before === active.id) keep(active);
-    else if (!active && document.activeElement === document.body) canvas().focus({ preventScroll: true });
+    else if (!active) leave();
   }
+
+  const later = (then) => requestAnimationFrame(() => requestAnimationFrame(then));
 
   /// A field that was left by Enter is still where the keyboard is; but what has just opened may be about to take it.
   function keep(entry) {
-    const still = () => document.activeElement === entry.node && !nodes.has(focus) && ask(entry.id);
-    requestAnimationFrame(() => requestAnimationFrame(still));
+    later(() => document.activeElement === entry.node && !nodes.has(focus) && ask(entry.id));
+  }
+
+  /// What had the keyboard is gone, and nothing takes it in its place.
+  function leave() {
+    later(() => {
+      if (!here || document.activeElement !== document.body) return;
+      here = false;
+      core.mirror_focused(false);
+      canvas().focus({ preventScroll: true });
+    });
   }
 
   function ask(id) {
@@ -187,8 +207,8 @@ export function elements(root, core, canvas) {
     const entry = element(target);
     if (entry && entry.changed) commit(entry);
     if (root.contains(relatedTarget)) return;
-    // An element that goes away takes the keyboard with it without a word of where to.
-    if (relatedTarget === null && !target.isConnected) return;
+    // An element that goes away takes the keyboard with it; where to is not said yet.
+    if (arranging) return;
     here = false;
     core.mirror_focused(false);
   });
@@ -218,9 +238,9 @@ export function elements(root, core, canvas) {
   function choose(entry, key) {
     const all = [...root.querySelectorAll(`input[name="${entry.node.name}"]`)];
     const step = key === "ArrowRight" || key === "ArrowDown" ? 1 : -1;
-    const next = all[(all.indexOf(entry.node) + step + all.length) % all.length];
-    next.focus({ preventScroll: true });
-    act(next.dataset.id, "click");
+    const other = all[(all.indexOf(entry.node) + step + all.length) % all.length];
+    other.focus({ preventScroll: true });
+    act(other.dataset.id, "click");
   }
 
   root.addEventListener("keydown", (event) => {
@@ -264,7 +284,10 @@ export function elements(root, core, canvas) {
 
   return (json) => {
     const { focus: now, elements: list } = JSON.parse(json);
+    next = now;
+    arranging = true;
     arrange(list);
+    arranging = false;
     const shut = beside();
     for (const node of root.querySelectorAll("[inert]")) node.inert = shut.has(node);
     // What is shut away loses the keyboard, so that goes first.

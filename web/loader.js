@@ -77,7 +77,6 @@ function leaveToElements(canvas) {
   for (const field of document.querySelectorAll("#stage > input")) {
     field.tabIndex = -1;
     field.setAttribute("aria-label", "Text typed into the picture");
-    field.inputMode = "decimal";
   }
 }
 

@@ -10,8 +10,8 @@ use std::collections::HashMap;
 use egui::accesskit::{Action, Node, NodeId, Toggled, TreeUpdate};
 use serde::Serialize;
 
-pub use kind::{Kind, Part, mark};
-use kind::{Sort, sort};
+pub use kind::{Kind, Part, mark, mark_digits};
+use kind::{Sort, sort, takes_digits};
 
 /// One element.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -52,6 +52,9 @@ pub struct Element {
     /// Whether it does nothing for now.
     #[serde(skip_serializing_if = "is_false")]
     pub disabled: bool,
+    /// Whether a keyboard of digits will do for it.
+    #[serde(skip_serializing_if = "is_false")]
+    pub digits: bool,
     /// Whether it takes the keyboard.
     #[serde(skip_serializing_if = "is_false")]
     pub focusable: bool,
@@ -159,6 +162,7 @@ fn describe(id: NodeId, node: &Node, kind: Kind, name: String, within: Option<&s
         on: node.toggled().map(|toggled| toggled == Toggled::True),
         open: node.is_expanded(),
         disabled: node.is_disabled(),
+        digits: takes_digits(node),
         focusable: node.supports_action(Action::Focus),
     }
 }

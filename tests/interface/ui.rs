@@ -353,6 +353,33 @@ fn every_input_has_a_name_and_nothing_leaves_the_page() {
 }
 
 #[test]
+fn a_finger_hits_everything_on_a_phone() {
+    for (size, sheet) in [(vec2(390.0, 844.0), false), (vec2(390.0, 844.0), true), (vec2(360.0, 640.0), true)] {
+        let mut page = page_of(size);
+        if sheet {
+            click(&mut page, "Controls");
+            page.run_steps(3);
+        }
+        let mut small = Vec::new();
+        for node in page.root().children_recursive() {
+            let role = node.accesskit_node().role();
+            let button = matches!(role, Role::Button | Role::CheckBox | Role::RadioButton | Role::Tab);
+            let name = node.accesskit_node().label().unwrap_or_default();
+            // A link in a line of text is as high as that, and handles on plots have fields and switches beside them.
+            let target = button || matches!(role, Role::Slider | Role::TextInput);
+            if !target || name.contains("plot") {
+                continue;
+            }
+            let rect = node.rect();
+            if rect.width().min(rect.height()) < 43.5 {
+                small.push(format!("{role:?} {name}: {:.0} × {:.0}", rect.width(), rect.height()));
+            }
+        }
+        assert!(small.is_empty(), "at {size}, {}: {small:#?}", if sheet { "sheet" } else { "views" });
+    }
+}
+
+#[test]
 fn a_finger_that_scrolls_the_controls_changes_none() {
     let mut page = page_of(vec2(390.0, 844.0));
     click(&mut page, "Controls");

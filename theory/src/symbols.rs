@@ -92,9 +92,8 @@ pub fn table() -> Result<String> {
         let name = math::symbols(symbol.name);
         writeln!(
             text,
-            "<tr id=\"{}\"><th scope=\"row\" aria-label=\"{}\">{}</th><td>{name}</td><td>{}</td><td><code>{}</code></td><td>{}</td></tr>",
+            "<tr id=\"{}\"><th scope=\"row\">{}</th><td>{name}</td><td>{}</td><td><code>{}</code></td><td>{}</td></tr>",
             symbol.anchor(),
-            symbol.text.replace('_', ""),
             math::inline(tex)?,
             symbol.unit.replace('1', if symbol.unit == "1" { "–" } else { "1" }),
             breakable(code),

@@ -98,18 +98,25 @@ pub enum Part {
 
 const REGION: &str = "region:";
 const GROUP: &str = "group:";
+const DIGITS: &str = "digits";
+
+/// Says of a field that a keyboard of digits will do for it.
+pub fn mark_digits(ui: &Ui, field: Id) {
+    ui.ctx().accesskit_node_builder(field, |node| node.set_author_id(DIGITS));
+}
+
+/// Whether a keyboard of digits will do.
+pub(super) fn takes_digits(node: &Node) -> bool {
+    node.author_id() == Some(DIGITS)
+}
 
 /// Says of an `Ui` what it holds, in a few words. Names of elements are for those who look for widgets by name; this is none.
 pub fn mark(ui: &Ui, part: Part, name: &str) {
-    mark_id(ui, ui.unique_id(), part, name);
-}
-
-fn mark_id(ui: &Ui, id: Id, part: Part, name: &str) {
     let prefix = match part {
         Part::Region => REGION,
         Part::Group => GROUP,
     };
-    ui.ctx().accesskit_node_builder(id, |node| node.set_author_id(format!("{prefix}{name}")));
+    ui.ctx().accesskit_node_builder(ui.unique_id(), |node| node.set_author_id(format!("{prefix}{name}")));
 }
 
 pub(super) fn sort(node: &Node) -> Sort {

@@ -57,6 +57,8 @@ fn every_part_of_the_page_is_there_in_reading_order() {
         mirror.elements.iter().filter(|e| e.kind == Kind::Region).map(|e| e.name.as_str()).collect();
     // The 3D view needs a GPU.
     assert_eq!(regions, ["Experiment", "Views", "Tools", "Controls", "Playback", "Bending plane", "Result", "Plots"]);
+    let digits = |name| find(&mirror, Kind::Field, name).digits;
+    assert_eq!((digits("ξ2 (centrode) value"), digits("Bending direction δ value")), (true, false));
     let slider = find(&mirror, Kind::Slider, "Contact disk");
     assert_eq!((slider.min, slider.max, slider.step), (Some(0.0), slider.max, Some(1.0)));
     assert!(slider.focusable && !slider.disabled);

@@ -5,6 +5,7 @@ use egui::{
 };
 
 use crate::app::command::Command;
+use crate::app::controls::row::TARGET;
 use crate::app::fonts;
 use crate::app::panels::{menu, share};
 use crate::app::state::State;
@@ -39,18 +40,19 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, out: &mut Vec<Command>) {
 /// Width that [`tools`] takes, points.
 #[must_use]
 pub fn tools_width(sheet: bool) -> f32 {
-    if sheet { 158.0 } else { 120.0 }
+    if sheet { 4.0 * TARGET } else { 120.0 }
 }
 
 /// Shows sharing, theme and help; `sheet` asks for the button that opens the controls.
 pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
-    let mut right = rect.right_center() - vec2(20.0, 0.0);
-    let mut place = |width: f32| {
-        let place = Rect::from_center_size(right, vec2(34.0, 34.0));
-        right.x -= width;
+    let (side, apart) = if sheet { (TARGET, TARGET) } else { (34.0, 38.0) };
+    let mut right = rect.right_center() - vec2(0.5 * side + if sheet { 0.0 } else { 3.0 }, 0.0);
+    let mut place = || {
+        let place = Rect::from_center_size(right, vec2(side, side));
+        right.x -= apart;
         place
     };
-    if icon::button(ui, place(38.0), Icon::Help, "Help", Look::Plain).clicked() {
+    if icon::button(ui, place(), Icon::Help, "Help", Look::Plain).clicked() {
         out.push(Command::ToggleHelp);
     }
     let (sign, label) = match state.theme {
@@ -59,13 +61,13 @@ pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
         ThemeChoice::Dark => (Icon::Dark, "Theme: dark"),
         ThemeChoice::Projector => (Icon::Projector, "Theme: projector"),
     };
-    if icon::button(ui, place(38.0), sign, label, Look::Plain).clicked() {
+    if icon::button(ui, place(), sign, label, Look::Plain).clicked() {
         out.push(Command::NextTheme);
     }
-    share::menu(ui, place(38.0), out);
+    share::menu(ui, place(), out);
     if sheet {
         let look = if state.sheet { Look::Lit } else { Look::Plain };
-        if icon::button(ui, place(38.0), Icon::Controls, "Controls", look).clicked() {
+        if icon::button(ui, place(), Icon::Controls, "Controls", look).clicked() {
             out.push(Command::ToggleSheet);
         }
     }

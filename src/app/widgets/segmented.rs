@@ -82,10 +82,12 @@ fn parts(
     let width = rect.width() / options.len().max(1) as f32;
     let mut clicked = None;
     for (i, option) in options.iter().enumerate() {
-        let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height())).shrink(2.0);
+        let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height()));
         let id = ui.make_persistent_id(("segment", label, i));
         let response = ui.interact(part, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
         let held = holds(i);
+        // All of it can be hit, to its edges.
+        let part = part.shrink(2.0);
         response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), held, option.name));
         if held {
             let fill = if theme.dark { theme.faint } else { theme.panel };
