@@ -7,6 +7,7 @@ use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text::rich;
+use crate::app::widgets::toggle::toggle;
 use crate::app::words::keys;
 
 /// Titles and texts.
@@ -94,10 +95,11 @@ pub fn help(ui: &mut Ui, (sound, by_key): (bool, bool), out: &mut Vec<Command>) 
                     if ui.add(keys).on_hover_text("All of them, also by the key ?").clicked() {
                         out.push(Command::ToggleKeys);
                     }
-                    let mut heard = sound;
-                    if ui.checkbox(&mut heard, "Sound").on_hover_text(SOUND).changed() {
+                    let (place, _) = ui.allocate_exact_size(vec2(32.0, 28.0), egui::Sense::hover());
+                    if toggle(ui, place, "Sound", sound) {
                         out.push(Command::ToggleSound);
                     }
+                    ui.label("Sound").on_hover_text(SOUND);
                 });
                 for (title, body) in PARAGRAPHS {
                     ui.add_space(6.0);
