@@ -18,8 +18,6 @@ pub enum Source {
     Calibration = 4,
     /// The tracker's drift.
     Drift = 5,
-    /// Draws of a bound, which belong to no sensor.
-    Bound = 64,
 }
 
 /// A stream of standard normal deviates.

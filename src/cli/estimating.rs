@@ -8,9 +8,9 @@ use clap::Args;
 /// Flags of the commands that place a contact.
 #[derive(Debug, Args)]
 pub struct Estimating {
-    /// Place the contact that the first alarm of this detector tells of.
-    #[arg(long, value_name = "KEY", default_value = "cusum")]
-    detector: String,
+    /// Place the contact that the first alarm of this detector tells of; cusum by itself.
+    #[arg(long, value_name = "KEY")]
+    detector: Option<String>,
     /// Place it so long after the alarm, in seconds.
     #[arg(long, value_name = "SECONDS", value_delimiter = ',', allow_negative_numbers = true)]
     after: Vec<f64>,
@@ -19,7 +19,12 @@ pub struct Estimating {
 impl Estimating {
     /// The detector.
     pub fn detector(&self) -> Result<Method, Failure> {
-        method("--detector", &self.detector)
+        self.detector.as_ref().map_or(Ok(Method::Cusum), |name| method("--detector", name))
+    }
+
+    /// Whether any of them is given.
+    pub fn is_given(&self) -> bool {
+        self.detector.is_some() || !self.after.is_empty()
     }
 
     /// The times, s.

@@ -5,7 +5,7 @@ use centrode_core::detect::calibration::Noise;
 use centrode_core::detect::calibration::noise::Whiteness;
 use centrode_core::detect::estimates::Estimated;
 use centrode_core::detect::force::Force;
-use centrode_core::detect::{Detection, Event};
+use centrode_core::detect::{Detection, Event, Method};
 use centrode_core::plant::{Happening, PlantEvent};
 use centrode_core::scenario::Listed;
 use centrode_core::study::about::About;
@@ -30,11 +30,11 @@ pub fn too_many(TooMany { time }: TooMany) -> Failure {
 }
 
 /// Where a contact is; `raised` is its alarm (s), where it is not the first.
-fn placed(out: &mut impl Write, estimate: &Estimated, raised: Option<f64>) -> std::io::Result<()> {
+fn placed(out: &mut impl Write, estimate: &Estimated, (detector, raised): (Method, f64)) -> std::io::Result<()> {
     let Estimated { after, estimator, location, contact_time, kinds, .. } = estimate;
     let mm = |x: f64| x * 1e3;
-    let at = raised.map_or_else(String::new, |raised| format!(" of {raised:.3} s"));
-    write!(out, "placed      {after:.2} s after the alarm{at}, by {}: {:.2} mm", estimator.word(), mm(location.mean))?;
+    let alarm = format!("{}'s alarm at {raised:.3} s", detector.key());
+    write!(out, "placed      {after:.2} s after {alarm}, by {}: {:.2} mm", estimator.word(), mm(location.mean))?;
     if location.low < location.high {
         write!(out, ", 95 % between {:.2} and {:.2} mm", mm(location.low), mm(location.high))?;
     }
@@ -90,12 +90,24 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
         }
         None => writeln!(out, "detected    nothing by the centrode")?,
     }
-    for estimate in &report.estimates {
-        placed(out, estimate, None)?;
-    }
-    for next in &report.next_estimates {
-        for estimate in &next.estimates {
-            placed(out, estimate, Some(next.raised))?;
+    if let Some(alarm) = &report.placed {
+        let Event { detector, raised, .. } = *alarm;
+        for estimate in &report.estimates {
+            placed(out, estimate, (detector, raised))?;
+        }
+        for next in &report.next_estimates {
+            for estimate in &next.estimates {
+                placed(out, estimate, (detector, next.raised))?;
+            }
+        }
+        if report.estimates.is_empty() {
+            let estimation = &report.scenario.estimation;
+            let chosen = estimation.estimators.iter().next().is_some() && estimation.plants.iter().next().is_some();
+            let why = match chosen {
+                true => "the readings do not place the contact, or end before",
+                false => "no estimator, or no kind of contact, is chosen",
+            };
+            writeln!(out, "placed      nowhere after {}'s alarm at {raised:.3} s: {why}", detector.key())?;
         }
     }
     if let Some(Pressed { force: Force { time, mean, low, high }, truth }) = report.force {
@@ -113,12 +125,19 @@ fn table(out: &mut impl Write, report: &Report) -> std::io::Result<()> {
             "filter      takes the tracker's noise for {position:.3} mm and {orientation:.4}°, ρ = {colour:.2}"
         )?;
     }
+    if report.noise_unmeasured {
+        writeln!(
+            out,
+            "warning     the tracker's noise could not be measured, for the robot is not at rest before it moves: it is taken for what \
+             tracker.position_noise and tracker.orientation_noise say"
+        )?;
+    }
     if let Some(test) = report.whiteness.filter(Whiteness::fails) {
         let p = if test.p_value < 1e-99 { "< 1e-99".into() } else { format!("= {:.0e}", test.p_value) };
         writeln!(
             out,
             "warning     innovations are not white (p {p}): thresholds of cusum and glr, and intervals of places, hold for \
-             white ones; see prior.colour, prior.drift and prior.position_noise"
+             white ones; see prior.colour, prior.drift and prior.position_noise, unless a contact was missed"
         )?;
     }
     for (name, peak, unit) in [

@@ -35,9 +35,9 @@ pub struct StudyArgs {
     /// Repeats of each combination, with contact and without; 200 by itself.
     #[arg(long, value_name = "N")]
     repeats: Option<usize>,
-    /// An alarm later than this after contact counts as missed, in s.
-    #[arg(long, value_name = "SECONDS", default_value_t = 1.0)]
-    late: f64,
+    /// An alarm later than this after contact counts as missed, in s; 1 by itself.
+    #[arg(long, value_name = "SECONDS")]
+    late: Option<f64>,
     /// Compare values of a key, as in filter.length=100:1000:10 (ten values) or contact.disk=1,2,3; may be repeated. Values
     /// of detection.xi2 or detection.xi1 take the place of the usual thresholds.
     #[arg(long = "sweep", value_name = "KEY=VALUES")]
@@ -52,9 +52,9 @@ pub struct StudyArgs {
     /// one of them finds. Says which threshold of which detector to take.
     #[arg(long, value_name = "KEY,…", value_delimiter = ',')]
     detectors: Vec<String>,
-    /// With --detectors: the share of runs without contact that may alarm, above 0 and below 1.
-    #[arg(long, value_name = "RATE", default_value_t = 0.01)]
-    rate: f64,
+    /// With --detectors: the share of runs without contact that may alarm, above 0 and below 1; 0.01 by itself.
+    #[arg(long, value_name = "RATE", requires = "detectors")]
+    rate: Option<f64>,
     #[command(flatten)]
     estimating: Estimating,
     /// Print JSON instead of a summary, in SI units: every cell with its curves.
@@ -161,6 +161,10 @@ impl StudyArgs {
         if !self.detectors.is_empty() {
             return compare::execute(self, &scenario, repeats, out);
         }
+        if self.estimating.is_given() {
+            let line = "--detector and --after place contacts, which a study of thresholds does not: name --detectors to compare";
+            return Err(Failure::Input(line.into()));
+        }
         let study = Study::new(self.spec(&scenario, repeats)?).map_err(|error| Failure::Input(error.to_string()))?;
         let format = self.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
         // A file that cannot be written is said before the work, not after it.
@@ -227,7 +231,8 @@ impl StudyArgs {
             levels.put(detector, sweep.levels().map_err(refused)?);
         }
         let cells = combinations(&others).map_err(|error| Failure::Input(format!("--sweep: {error}")))?;
-        Ok(Spec { late: self.late, cells, levels, ..Spec::of(scenario.clone(), repeats) })
+        let usual = Spec::of(scenario.clone(), repeats);
+        Ok(Spec { late: self.late.unwrap_or(usual.late), cells, levels, ..usual })
     }
 }
 

@@ -93,8 +93,9 @@ fn text(out: &mut impl Write, table: &Table2) -> io::Result<()> {
     let [one, ..] = &table.simulated;
     writeln!(
         out,
-        "Table II: the paper's, and simulated with {} experiments on each disk by kind of contact",
-        one.repeats
+        "Table II: the paper's, and simulated with {} {} on each disk by kind of contact",
+        one.repeats,
+        if one.repeats == 1 { "experiment" } else { "experiments" }
     )?;
     writeln!(out, "mean ± standard deviation where contact was found; – is not known, or not defined")?;
     for k in 0..table.paper.len() {

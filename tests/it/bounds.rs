@@ -1,7 +1,7 @@
 //! Detectors and estimates against what no detector and no estimator can do better.
 
 use centrode_core::detect::Method;
-use centrode_core::detect::calibration::bound::{Delays, place};
+use centrode_core::detect::calibration::bound::{self, Beginning, place};
 use centrode_core::detect::calibration::course::{Moment, Planner};
 use centrode_core::detect::estimates::marginal;
 use centrode_core::run::{Run, simulate};
@@ -27,10 +27,11 @@ fn moments(run: &Run) -> Vec<Moment> {
     Planner::all(&watched.model, &watched.readings.commands, false)
 }
 
-/// The last reading before a run's contact.
-fn began(run: &Run) -> usize {
+/// When a run's contact began.
+fn began(run: &Run) -> Beginning {
     let watched = run.judged.watched.as_ref().expect("watched");
-    watched.at(run.contact_time().expect("met")).expect("readings") - 1
+    let contact = run.plan.contact().expect("one");
+    Beginning::of(&watched.readings.commands, contact.bend, contact.side).expect("readings before and after")
 }
 
 fn length(run: &Run) -> f64 {
@@ -40,7 +41,7 @@ fn length(run: &Run) -> f64 {
 /// Readings from contact to alarm; many where there is none after it.
 fn delay(run: &Run) -> usize {
     let watched = run.judged.watched.as_ref().expect("watched");
-    let after = |raised: f64| watched.at(raised).and_then(|alarm| alarm.checked_sub(began(run)));
+    let after = |raised: f64| watched.at(raised).and_then(|alarm| alarm.checked_sub(began(run).reading));
     run.judged.first(Method::Cusum).and_then(|event| after(event.raised)).unwrap_or(usize::MAX)
 }
 
@@ -54,9 +55,9 @@ fn the_best_test_of_all_is_as_fast_as_an_independent_program_has_it_and_cusum_no
     for (name, expected) in [("disk-1", 5_usize), ("bench", 3), ("disk-3", 2)] {
         let run = simulate(&preset(name, 1)).expect("possible");
         let contact = run.plan.contact().expect("one").arc_length;
-        let delays = Delays::drawn(&moments(&run), length(&run), (contact, began(&run)), 0.01, 2000, 7);
-        let best = median(delays.readings);
-        assert!(best.abs_diff(expected) <= 1, "{name}: {best} readings");
+        let best =
+            bound::delay(&moments(&run), length(&run), (contact, began(&run)), 0.01, 0.5).expect("enough readings");
+        assert_eq!(best, expected, "{name}: readings");
         let ours: Vec<usize> = (1..=31).map(|seed| delay(&simulate(&preset(name, seed)).expect("possible"))).collect();
         let ours = median(ours);
         assert!(ours >= best && ours <= 3 * best, "{name}: {ours} readings, and {best} of the best");
@@ -85,7 +86,7 @@ fn a_bound_on_the_place_falls_and_the_posterior_is_as_wide() {
                 });
             let mean = first / one;
             // The bound begins with the reading after the contact.
-            let at = watched.at(time).expect("readings") - began - 1;
+            let at = watched.at(time).expect("readings") - began.reading - 1;
             (second / one - mean * mean).sqrt() / bound[at]
         };
         let ratios: Vec<f64> = (1..=12).map(ratio).collect();

@@ -113,10 +113,9 @@ fn bounds_fall_with_the_rate_and_lie_below_the_curves() {
         }
         let quiet = compared.curve.last().expect("a level");
         assert_eq!(quiet.false_alarms.rate.count, 0);
-        // A tenth of a second's hundredth is a reading.
         let delay = quiet.detection.expect("a contact").median;
         let bound = comparison.bounds[0].delay.median;
-        assert!(delay + 0.0101 >= bound, "{}: {delay} s, bound {bound} s", compared.detector);
+        assert!(delay + 1e-9 >= bound, "{}: {delay} s, bound {bound} s", compared.detector);
     }
     let bounds: Vec<f64> = comparison.place_bounds.iter().map(|limit| limit.bound).collect();
     assert!(bounds.len() > 30 && bounds.windows(2).all(|pair| pair[0] >= pair[1]), "more readings say more");
@@ -161,5 +160,34 @@ fn flags_that_belong_to_the_other_study_are_refused() {
         assert_eq!(output.status.code(), Some(2), "{flag:?}: {line}");
         assert!(line.contains(part) && line.trim_end().lines().count() == 1, "{flag:?}: {line}");
         assert!(output.stdout.is_empty());
+    }
+}
+
+#[test]
+fn a_factor_on_the_bound_has_no_unit_and_flags_of_the_other_study_are_refused() {
+    let out = centrode(&[
+        "study",
+        "--preset",
+        "bench",
+        "--repeats",
+        "3",
+        "--detectors",
+        "jfd",
+        "--set",
+        "detection.xi1_rule=bound",
+    ]);
+    let text = String::from_utf8(out.stdout).expect("UTF-8");
+    let row = text.lines().find(|line| line.starts_with("jfd")).expect("a row");
+    assert!(row.contains(" 1.500 ") && !row.contains("mN"), "{row}");
+    let with = ["study", "--repeats", "3", "--detectors", "fcd"];
+    for (args, said) in [
+        ([&with[..], &["--late", "2"]].concat(), "--late"),
+        ([&with[..], &["--false-alarms", "0.1"]].concat(), "--false-alarms"),
+        (vec!["study", "--repeats", "3", "--after", "0.1"], "--after"),
+        (vec!["study", "--repeats", "3", "--rate", "0.1"], "--detectors"),
+    ] {
+        let output = centrode(&args);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.code() == Some(2) && told.contains(said), "{args:?}: {told}");
     }
 }

@@ -21,6 +21,7 @@ mod contact_force;
 mod detectors;
 #[cfg(feature = "cli")]
 mod documented;
+mod edges;
 #[cfg(feature = "cli")]
 mod example_logs;
 mod experiment;

@@ -131,9 +131,10 @@ fn beside_the_paper_s_method_stands_the_calibration_filter_s() {
         scenario.detection.detectors.set(Method::Cusum, true);
         scenario
     };
-    let job = finished(&with_cusum("bench"), 3);
-    let (table, rows) = (job.table(), job.our_rows().expect("cusum judges"));
-    let ours = table.ours.expect("cusum judges");
+    // Whether or not it is switched on.
+    let job = finished(&preset("bench"), 3);
+    let (table, rows) = (job.table(), job.our_rows().expect("cusum has a threshold"));
+    let ours = table.ours.expect("cusum has a threshold");
     assert_eq!(rows.len(), 9);
     // The first experiments are the presets.
     for (row, name) in rows.iter().zip(PRESETS) {
@@ -150,7 +151,7 @@ fn beside_the_paper_s_method_stands_the_calibration_filter_s() {
         assert!(!paper.delay.mean.is_finite() || ours.disk.delay.mean < 0.5 * paper.delay.mean, "{ours:?}");
     }
     let mut without = preset("bench");
-    without.detection.detectors.set(Method::Cusum, false);
+    without.detection.cusum = Threshold::OFF;
     let plain = finished(&without, 3);
     assert!(plain.table().ours.is_none() && plain.our_rows().is_none());
     // What was missed is NaN, which equals nothing.

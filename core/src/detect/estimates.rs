@@ -126,7 +126,10 @@ pub fn estimate(known: &Known, alarm: f64, after: f64, estimator: Estimator) -> 
     };
     Some(match estimator {
         Estimator::Eq24 => plain(eq24(known, time)?),
-        Estimator::Settled => plain(eq24(known, time + known.settings.filter_span())?),
+        Estimator::Settled => {
+            let time = time + known.settings.filter_span();
+            Estimated { time, ..plain(eq24(known, time)?) }
+        }
         Estimator::Marginal => {
             let estimate = marginal(known.watched?, &known.settings.placing, alarm, time)?;
             let kinds = estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect();

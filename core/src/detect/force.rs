@@ -16,8 +16,10 @@ use crate::record::Recording;
 use crate::scenario::{Estimator, Kind};
 use serde::Serialize;
 
-/// A plane is likely enough from this probability on.
-const LIKELY: f64 = 0.5;
+/// A plane is likely enough from this probability on: of a clamp's force nothing would be true.
+const LIKELY: f64 = 0.95;
+/// Places within the interval of the estimate at which the force is looked for.
+const PLACES: usize = 9;
 /// Beginnings between now and the first command from which the bisection sets out.
 const BEGINNINGS: usize = 48;
 /// Halvings of the interval between two of them.
@@ -28,17 +30,17 @@ const HALVINGS: usize = 40;
 pub struct Force {
     /// Time of which this is said, s.
     pub time: f64,
-    /// By the load cells as they read.
+    /// By the load cells as they read, at the mean of the place.
     pub mean: f64,
-    /// If all cells read too much by a share ε_τ …
+    /// The least of all places within the estimate's interval, if all cells read too much by a share ε_τ …
     pub low: f64,
-    /// … or too little.
+    /// … and the most, if they read too little.
     pub high: f64,
 }
 
 impl Force {
-    /// At the time of an estimate of the contact's place, which is taken for known. `None` unless the estimate weighs kinds of
-    /// contact and a plane is likely, and where the load cells read nothing.
+    /// At the time of an estimate of the contact's place. `None` unless the estimate weighs kinds of contact and a plane is likely, and
+    /// where the load cells read nothing, or nothing that any contact there could come to.
     #[must_use]
     pub fn of(judged: &Judged, recording: &Recording, estimate: &Estimated) -> Option<Self> {
         let plane = Kind::WORDS[Kind::Plane as usize];
@@ -50,9 +52,15 @@ impl Force {
         let entry = entries.get(at)?;
         let known = |bend: &f64| bend.is_finite();
         let start = entries.iter().map(|entry| entry.configuration.bend()).find(known)?;
-        let [low, mean, high] =
-            sizes(&judged.settings, (start, entry.configuration), &entry.tau_lc, estimate.location.mean)?;
-        Some(Self { time: entry.time, mean, low, high })
+        let of = |place: f64| sizes(&judged.settings, (start, entry.configuration), &entry.tau_lc, place);
+        let [mut low, mean, mut high] = of(estimate.location.mean)?;
+        let [from, to] = [estimate.location.low, estimate.location.high];
+        for k in 0..PLACES {
+            let Some([least, _, most]) = of(from + (to - from) * k as f64 / (PLACES - 1) as f64) else { continue };
+            (low, high) = (low.min(least), high.max(most));
+        }
+        // Where even that is one number, the cells read more, or less, than any contact comes to.
+        (judged.settings.epsilon_tau == 0.0 || low < high).then_some(Self { time: entry.time, mean, low, high })
     }
 }
 

@@ -78,13 +78,17 @@ impl Settings {
         self.commanded && [Method::Cusum, Method::Glr].into_iter().any(judges)
     }
 
+    fn has_bank(&self) -> bool {
+        self.thresholds.detectors.has(Method::Glr)
+    }
+
     /// The calibration filter before the first of some entries; none where no detector that judges rests on it.
     #[must_use]
     pub fn monitor(&self, entries: &[Entry]) -> Option<Monitor> {
         self.watches().then(|| {
             let readings = Readings::of(&self.segment, &self.clock, entries);
             let model = self.watching.model(self.segment.length, &readings);
-            Monitor::new(&self.watching, &self.clock, &model, readings.commands.into_iter())
+            Monitor::new(&self.clock, &model, self.has_bank(), readings.commands.into_iter())
         })
     }
 
@@ -109,12 +113,17 @@ impl Settings {
                 }
             }
             let model = self.watching.model(self.segment.length, &still);
-            Monitor::new(&self.watching, &self.clock, &model, self.commands(plan))
+            Monitor::new(&self.clock, &model, self.has_bank(), self.commands(plan))
         })
     }
 
     /// What a robot is told at each of the tracker's readings by a plan, until it rests: as [`Readings::of`] has it of the recording.
     pub fn commands(&self, plan: &Plan) -> impl Iterator<Item = Command> {
+        self.readings(plan).map(|(_, command)| command)
+    }
+
+    /// The same, each with the time at which its reading arrives, s.
+    pub fn readings(&self, plan: &Plan) -> impl Iterator<Item = (f64, Command)> {
         let mut nominal = Nominal::new(&self.segment, &self.clock);
         let motion = plan.scenario().motion.clone();
         let plane = Configuration::new(0.0, motion.delta);
@@ -124,7 +133,7 @@ impl Settings {
         times.filter_map(move |time| {
             let (theta_l, theta_l_rate) = command(&motion, time);
             let configuration = plane.with_bend(bend_from_theta_l(theta_l));
-            nominal.commanded_at(time, configuration, theta_l_rate).map(|expected| expected.command())
+            nominal.commanded_at(time, configuration, theta_l_rate).map(|expected| (time, expected.command()))
         })
     }
 
@@ -164,7 +173,7 @@ fn watching(scenario: &Scenario) -> Watching {
         noise: [&scenario.prior.position_noise, &scenario.prior.orientation_noise, &scenario.prior.colour]
             .map(|estimated| estimated.value()),
         declared: Noise { position: tracker.position_noise, orientation: tracker.orientation_noise, colour: 0.0 },
-        with_bank: scenario.detection.detectors.has(Method::Glr),
+        least: noise::floor(tracker.position_resolution, tracker.orientation_resolution),
     }
 }
 
@@ -310,6 +319,14 @@ impl Judged {
             watched: self.watched.as_ref(),
             settings: &self.settings,
         }
+    }
+
+    /// Whether the tracker's noise is taken for what the scenario says, because it is not known and there were too few readings at rest to
+    /// measure it.
+    #[must_use]
+    pub fn noise_unmeasured(&self) -> bool {
+        let known = self.settings.watching.noise.iter().all(Option::is_some);
+        self.watched.as_ref().is_some_and(|watched| !known && noise::still(&watched.readings.commands) < noise::STILL)
     }
 
     /// Whether the calibration filter's innovations are white, up to where a contact can have begun; none where it did not watch, or too

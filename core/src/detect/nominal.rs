@@ -52,8 +52,8 @@ impl Expected {
     /// The command behind the reading.
     #[must_use]
     pub fn command(&self) -> Command {
-        let Self { delivered, configuration, bend_rate, .. } = self;
-        Command { time: *delivered, bend: configuration.bend(), rate: *bend_rate, delta: configuration.delta() }
+        let Self { taken, configuration, bend_rate, .. } = self;
+        Command { time: *taken, bend: configuration.bend(), rate: *bend_rate, delta: configuration.delta() }
     }
 }
 

@@ -28,6 +28,15 @@ impl Method {
         }
     }
 
+    /// What its setting is where ξ1 is what a scenario says it is.
+    #[must_use]
+    pub const fn setting_quantity(self, rule: Xi1Rule) -> Quantity {
+        match (self, rule) {
+            (Self::Jfd, Xi1Rule::Bound) => Quantity::Count,
+            _ => self.quantity(),
+        }
+    }
+
     /// Its value at an instant, SI; NaN where it is not defined.
     #[must_use]
     pub fn value(self, judgement: &Judgement) -> f64 {

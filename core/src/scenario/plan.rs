@@ -319,12 +319,12 @@ fn check_truth(scenario: &Scenario) -> Result<(), ScenarioError> {
     let Some(key) = TrueRobot::refused(scenario, fault).and_then(keys::find) else { return Ok(()) };
     let allowed = match scenario.calibration.draw {
         Draw::Fixed => Allowed::Need(
-            "an error with which the true robot bends by less than one turn, each secondary backbone has some length left, and the \
-             contact is on the backbone and fits",
+            "an error with which the true robot bends by less than one turn, each secondary backbone has some length left, and \
+             contact.disk or contact.arc_length is on the true backbone",
         ),
         Draw::Drawn => Allowed::Need(
-            "a standard deviation four of which are at most 50 % of length and bend, leave less than one turn of bend and some length of \
-             each secondary backbone, and the contact on the backbone, where it fits",
+            "a standard deviation such that errors four times as large are at most 50 % of length and bend, leave less than one turn of bend \
+             and some length of each secondary backbone, and leave contact.disk or contact.arc_length on the true backbone",
         ),
     };
     Err(key.refuse(key.get(scenario).unwrap_or(Value::Number(f64::NAN)), allowed))

@@ -17,7 +17,6 @@ pub use outcome::Outcome;
 
 use super::{Job, Progress};
 use crate::detect::Method;
-use crate::detect::calibration::bound::Drawing;
 use crate::run::at_most;
 use crate::scenario::{Detectors, Estimator, Plan, Scenario, ScenarioError, Thresholds};
 use limits::Limits;
@@ -64,23 +63,13 @@ pub enum CompareError {
     Rate(f64),
 }
 
-/// A piece of the work.
+/// A piece of the work: a repeat, which is a run without contact and one with.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub enum Piece {
-    /// The delay that no test can beat, at one of the rates.
-    Bound(usize),
-    /// A run without contact and one with.
-    Repeat(u64),
-}
+pub struct Piece(pub u64);
 
-/// What a piece comes to.
+/// What a repeat comes to, and which it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Made {
-    /// The delay that no test can beat, and at which rate.
-    Bound(f64, Delay),
-    /// A repeat, and which.
-    Repeat(u64, Outcome),
-}
+pub struct Made(pub u64, pub Outcome);
 
 /// A comparison under way.
 #[derive(Debug, Clone)]
@@ -89,18 +78,8 @@ pub struct Compare {
     task: Task,
     limits: Limits,
     outcomes: BTreeMap<u64, Outcome>,
-    begun: Option<Begun>,
+    begun: Option<Making>,
 }
-
-/// A piece of which parts are made.
-#[derive(Debug, Clone)]
-enum Begun {
-    Bound(usize, Box<Drawing>),
-    Repeat(Making),
-}
-
-/// Runs that are drawn for a bound in one part: natively some 10 ms.
-const DRAWN: usize = 4000;
 
 impl Compare {
     /// Checks what is to be compared.
@@ -145,58 +124,24 @@ impl Compare {
         let repeats = self.spec.repeats as u64;
         let known = other.outcomes.range(..repeats).map(|(repeat, outcome)| (*repeat, outcome.clone()));
         self.outcomes.extend(known);
-        self.limits.adopt(&other.limits);
     }
 
-    /// The `piece`-th piece of work, of [`Progress::of`].
+    /// Makes a piece; changes nothing, so that many can be made at once.
     #[must_use]
-    pub fn piece(&self, piece: u64) -> Piece {
-        let bounds = self.limits.rates().len() as u64;
-        if piece < bounds { Piece::Bound(piece as usize) } else { Piece::Repeat(piece - bounds) }
-    }
-
-    /// Makes a piece; changes nothing, so that many can be made at once. None where there is no such piece.
-    #[must_use]
-    pub fn make(&self, piece: Piece) -> Option<Made> {
-        let mut begun = self.begin(piece)?;
-        while !self.go_on(&mut begun) {}
-        self.made(begun)
-    }
-
-    fn begin(&self, piece: Piece) -> Option<Begun> {
-        Some(match piece {
-            Piece::Bound(place) => Begun::Bound(place, Box::new(self.limits.drawing(place, self.spec.scenario.seed)?)),
-            Piece::Repeat(repeat) => Begun::Repeat(Making::new(repeat)),
-        })
-    }
-
-    /// Makes a part; returns whether the piece is whole.
-    fn go_on(&self, begun: &mut Begun) -> bool {
-        match begun {
-            Begun::Bound(_, drawing) => drawing.draw(DRAWN),
-            Begun::Repeat(making) => making.step(&self.task),
-        }
-    }
-
-    fn made(&self, begun: Begun) -> Option<Made> {
-        Some(match begun {
-            Begun::Bound(place, drawing) => Made::Bound(*self.limits.rates().get(place)?, self.limits.delay(*drawing)?),
-            Begun::Repeat(making) => Made::Repeat(making.repeat(), making.outcome()),
-        })
+    pub fn make(&self, piece: Piece) -> Made {
+        let mut making = Making::new(piece.0);
+        while !making.step(&self.task) {}
+        Made(piece.0, making.outcome())
     }
 
     /// Counts a piece in. One that was not asked for, or that does not fit, is left; returns whether it fits.
     pub fn add(&mut self, made: Made) -> bool {
-        match made {
-            Made::Bound(rate, delay) => self.limits.set(rate, delay),
-            Made::Repeat(repeat, outcome) => {
-                let fits = outcome.is_of(&self.task) && repeat < self.spec.repeats as u64;
-                if fits {
-                    self.outcomes.insert(repeat, outcome);
-                }
-                fits
-            }
+        let Made(repeat, outcome) = made;
+        let fits = outcome.is_of(&self.task) && repeat < self.spec.repeats as u64;
+        if fits {
+            self.outcomes.insert(repeat, outcome);
         }
+        fits
     }
 
     /// Repeats made.
@@ -207,29 +152,18 @@ impl Compare {
 
     /// The pieces that are not made.
     pub fn missing(&self) -> impl Iterator<Item = Piece> + '_ {
-        let bounds = (0..self.limits.rates().len()).filter(|place| !self.limits.has(*place)).map(Piece::Bound);
-        let repeats = (0..self.spec.repeats as u64).filter(|repeat| !self.outcomes.contains_key(repeat));
-        bounds.chain(repeats.map(Piece::Repeat))
+        (0..self.spec.repeats as u64).filter(|repeat| !self.outcomes.contains_key(repeat)).map(Piece)
     }
 
     /// A part of a piece, small enough for a frame; what it comes to once it is whole. A piece that is left for another begins anew.
     pub fn part(&mut self, piece: Piece) -> Option<Made> {
-        let begun = self.begun.take().filter(|begun| begun.piece() == piece);
-        let mut begun = begun.or_else(|| self.begin(piece))?;
-        if self.go_on(&mut begun) {
-            return self.made(begun);
+        let begun = self.begun.take().filter(|making| making.repeat() == piece.0);
+        let mut making = begun.unwrap_or_else(|| Making::new(piece.0));
+        if making.step(&self.task) {
+            return Some(Made(piece.0, making.outcome()));
         }
-        self.begun = Some(begun);
+        self.begun = Some(making);
         None
-    }
-}
-
-impl Begun {
-    fn piece(&self) -> Piece {
-        match self {
-            Self::Bound(place, _) => Piece::Bound(*place),
-            Self::Repeat(making) => Piece::Repeat(making.repeat()),
-        }
     }
 }
 
@@ -242,8 +176,7 @@ impl Job for Compare {
     }
 
     fn progress(&self) -> Progress {
-        let (done, of) = (self.limits.made() as u64, self.limits.rates().len() as u64);
-        Progress { done: done + self.repeats(), of: of + self.spec.repeats as u64 }
+        Progress { done: self.repeats(), of: self.spec.repeats as u64 }
     }
 }
 

@@ -47,7 +47,10 @@ pub struct Report<L = ()> {
     pub more: u64,
     /// The first alarm of fcd; null when there is none.
     pub detection: Option<Found>,
-    /// Where the contact is that the first alarm of one detector told of, at several times after it.
+    /// The first alarm of the detector whose contact is placed, where it has one.
+    #[serde(skip)]
+    pub placed: Option<Event>,
+    /// Where the contact is that it told of, at several times after it.
     pub estimates: Vec<Estimated>,
     /// The same of the detector's later alarms that tell of another contact; left out without any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -57,6 +60,9 @@ pub struct Report<L = ()> {
     pub force: Option<Pressed>,
     /// The tracker's noise as the calibration filter takes it, known or measured at rest; null where it did not watch.
     pub noise: Option<Noise>,
+    /// Whether that is what the scenario says of the tracker, for it was neither known nor could be measured; left out where not.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub noise_unmeasured: bool,
     /// Whether the calibration filter's innovations are white before a contact can have begun; null where it did not watch, or too briefly.
     pub whiteness: Option<Whiteness>,
     /// Largest values judged: after arming, and for the centrode while the end disk turns.
@@ -77,7 +83,7 @@ impl<L> Report<L> {
         conclusions: Conclusions,
         log: Option<L>,
     ) -> Self {
-        let Conclusions { estimates, next_estimates, force, noise, whiteness } = conclusions;
+        let Conclusions { placed, estimates, next_estimates, force, noise, noise_unmeasured, whiteness } = conclusions;
         let contact = truth.and_then(|(plan, plant)| Contact::of(plan, plant));
         let plant = truth.map_or_else(Vec::new, |(_, plant)| plant.to_vec());
         let detection = Detection::first(events);
@@ -94,10 +100,12 @@ impl<L> Report<L> {
             events,
             more,
             detection,
+            placed,
             estimates,
             next_estimates,
             force,
             noise,
+            noise_unmeasured,
             whiteness,
             peak,
             log,
@@ -148,6 +156,8 @@ pub struct Next {
 /// What is concluded from a run as a whole.
 #[derive(Debug, Clone, Default)]
 pub struct Conclusions {
+    /// [`Report::placed`].
+    pub placed: Option<Event>,
     /// [`Report::estimates`].
     pub estimates: Vec<Estimated>,
     /// [`Report::next_estimates`].
@@ -156,6 +166,8 @@ pub struct Conclusions {
     pub force: Option<Pressed>,
     /// [`Report::noise`].
     pub noise: Option<Noise>,
+    /// [`Report::noise_unmeasured`].
+    pub noise_unmeasured: bool,
     /// [`Report::whiteness`].
     pub whiteness: Option<Whiteness>,
 }
@@ -185,10 +197,19 @@ impl Conclusions {
         };
         let force = last.and_then(|last| Force::of(judged, recording, last)).map(pressed);
         let noise = judged.watched.as_ref().map(|watched| watched.model.noise);
+        let noise_unmeasured = judged.noise_unmeasured();
         let later = judged.contacts(detector).into_iter().skip(1).take(PLACED);
         let next =
             |event: &Event| Next { raised: event.raised, estimates: judged.estimates_of(recording, event, after) };
-        Self { estimates, next_estimates: later.map(next).collect(), force, noise, whiteness: judged.whiteness() }
+        Self {
+            placed: judged.first(detector).copied(),
+            estimates,
+            next_estimates: later.map(next).collect(),
+            force,
+            noise,
+            noise_unmeasured,
+            whiteness: judged.whiteness(),
+        }
     }
 }
 

@@ -137,7 +137,7 @@ pub struct Table2 {
     /// What the other kind is: a flat beam that only touches, or a clamp where the scenario's own is flat.
     pub other_kind: ContactKind,
     /// From the experiments with the scenario's kind of contact, with `cusum` and the posterior of the place in place of the
-    /// paper's method; none where `cusum` does not judge.
+    /// paper's method; none where the threshold of `cusum` is off.
     pub ours: Option<[Ours; 3]>,
 }
 
@@ -288,7 +288,7 @@ impl Table2Job {
             return Err(Refused::error("robot.disks", Quantity::Length, disks, allowed));
         }
         let kind = base.contact.kind;
-        let own = Experiments::new(base, kind, base.detection.detectors.has(Method::Cusum))?;
+        let own = Experiments::new(base, kind, base.detection.cusum.value().is_some())?;
         // What a clamp holds a flat beam cannot always touch: then nothing is simulated with the other kind.
         let other = Experiments::new(base, kind.other(), false).ok();
         Ok(Self { own, other, repeats })
@@ -301,7 +301,7 @@ impl Table2Job {
         &self.own.rows
     }
 
-    /// The same by the calibration filter; none where `cusum` does not judge.
+    /// The same by the calibration filter; none where the threshold of `cusum` is off.
     #[must_use]
     pub fn our_rows(&self) -> Option<&[OurRow]> {
         self.own.ours.as_deref()
@@ -350,10 +350,11 @@ impl Job for Table2Job {
 /// One run, up to its detection; `watch` where the calibration filter looks at it too, until that has placed the contact.
 fn experiment(plan: &Plan, script: &Script, truth: &Met, watch: bool) -> (Row, Option<OurRow>) {
     let mut settings = Settings::of(plan);
-    let compared = if watch { &[Method::Fcd, Method::Cusum][..] } else { &[Method::Fcd] };
-    let judge: Vec<Method> = settings.thresholds.detectors.iter().filter(|method| compared.contains(method)).collect();
-    settings.thresholds.detectors = Detectors::of(&judge);
-    settings.watching.with_bank = false;
+    let detectors = &mut settings.thresholds.detectors;
+    let paper = detectors.has(Method::Fcd);
+    *detectors = Detectors::NONE;
+    detectors.set(Method::Fcd, paper);
+    detectors.set(Method::Cusum, watch);
     let monitor = settings.monitor_before(plan, script.entries(plan));
     let (mut observer, mut alarms) = (Observer::new(&settings, monitor), Alarms::new(&settings));
     let (mut detection, mut end) = (None, f64::NAN);

@@ -82,6 +82,7 @@ pub struct Placed {
     /// One for each alarm and each time after it that the run holds: the estimate, if there is any; none where it is not made yet.
     made: Vec<Vec<Option<Option<Estimate>>>>,
     whiteness: Option<Whiteness>,
+    unmeasured: bool,
 }
 
 impl Placed {
@@ -100,6 +101,7 @@ impl Placed {
         let held = |alarm: &Alarm| AFTER.iter().take_while(|&after| alarm.raised + after <= key.end).count();
         self.made = key.alarms.iter().map(|alarm| vec![None; if places { held(alarm) } else { 0 }]).collect();
         self.whiteness = run.judged.whiteness();
+        self.unmeasured = run.judged.noise_unmeasured();
         self.key = Some(key);
     }
 
@@ -175,6 +177,12 @@ impl Placed {
             Some(Some(estimate)) => Place::At(estimate),
         };
         Some(Shown { alarm, first: place(0), latest: place(due), after: AFTER[due] })
+    }
+
+    /// Whether the tracker's noise is taken on trust, for it could not be measured.
+    #[must_use]
+    pub fn is_unmeasured(&self) -> bool {
+        self.unmeasured
     }
 
     /// How seldom white innovations look like those of the run, where that is so seldom that they are not taken for white.

@@ -129,14 +129,21 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A warning where innovations are not white.
+/// A warning where the noise of the tracker is not known, or innovations are not white.
 #[must_use]
 pub fn warning(placed: &Placed) -> Option<String> {
+    if placed.is_unmeasured() {
+        return Some(
+            "The tracker's noise could not be measured, for the robot is not at rest before it moves: it is taken for the position noise and \
+             orientation noise that are set."
+                .into(),
+        );
+    }
     let p = placed.suspect()?;
     let p = if p < 1e-99 { "p < 1e-99".into() } else { format!("p = {p:.0e}") };
     Some(format!(
         "Innovations are not white ({p}): thresholds and intervals hold for white ones. Assumed noise correlation and assumed drift \
-         (prior.colour, prior.drift) make room for what is left."
+         (prior.colour, prior.drift) make room for what is left, unless a contact was missed."
     ))
 }
 

@@ -9,7 +9,7 @@ use centrode_core::detect::Method;
 use centrode_core::scenario::keys::Quantity;
 use centrode_core::scenario::link::Page;
 use centrode_core::scenario::text::number;
-use centrode_core::scenario::{Detectors, Scenario};
+use centrode_core::scenario::{Detectors, Scenario, Xi1Rule};
 use centrode_core::study::compare::chart::chart;
 use centrode_core::study::compare::export::csv;
 use centrode_core::study::compare::{At, Compare, Comparison, Place, Spec, with};
@@ -19,6 +19,9 @@ use centrode_core::study::tuning::rate::Share;
 use centrode_core::study::tuning::recommend::Verdict;
 use serde::Serialize;
 use std::io::Write;
+
+/// The share of runs without contact that may alarm, where none is given.
+const RATE: f64 = 0.01;
 
 /// What is printed as JSON. SI units; null where a value is not defined.
 #[derive(Serialize)]
@@ -36,12 +39,16 @@ pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut 
         let line = "--detectors compares detectors; --sweep and --method belong to a study of thresholds";
         return Err(Failure::Input(line.into()));
     }
+    if args.false_alarms.is_some() || args.late.is_some() {
+        let line = "--detectors compares at equal false alarms, --rate; --false-alarms and --late belong to a study of thresholds";
+        return Err(Failure::Input(line.into()));
+    }
     let methods: Vec<Method> =
         args.detectors.iter().map(|name| method("--detectors", name)).collect::<Result<_, _>>()?;
     let spec = Spec {
         scenario: with(scenario, &methods),
         repeats,
-        rate: args.rate,
+        rate: args.rate.unwrap_or(RATE),
         detector: args.estimating.detector()?,
         after: args.estimating.after()?,
     };
@@ -58,7 +65,7 @@ pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut 
     }
     if let (Some(mut file), Some(format)) = (drawing, format) {
         let compared = Detectors::of(&methods);
-        let (false_alarms, repeats) = (args.rate, repeats as u64);
+        let (false_alarms, repeats) = (compare.spec().rate, repeats as u64);
         let page = Page { false_alarms, repeats, compare: compared, ..Page::of("detectors") };
         draw::write(&mut file, &signed(chart(&compare, &comparison), scenario, page), format)?;
         file.finish()?;
@@ -66,7 +73,7 @@ pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut 
     if args.json {
         json(out, &Report { scenario: &compare.spec().scenario, partial, comparison: &comparison })?;
     } else {
-        text(out, &comparison)?;
+        text(out, &comparison, scenario.detection.xi1_rule)?;
     }
     out.flush()?;
     if partial {
@@ -82,7 +89,7 @@ fn shown(value: f64, digits: usize) -> String {
     if value.is_finite() { format!("{value:.digits$}") } else { "–".into() }
 }
 
-fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
+fn text(out: &mut impl Write, comparison: &Comparison, rule: Xi1Rule) -> std::io::Result<()> {
     let Comparison { repeats, rate, detectors, bound, white, places, .. } = comparison;
     let runs = if *repeats == 1 { "run" } else { "runs" };
     writeln!(
@@ -90,8 +97,8 @@ fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
         "{repeats} {runs} without and as many with contact; {} of {} without have white innovations",
         white.count, white.of
     )?;
-    let own: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.own)).collect();
-    let equal: Vec<_> = detectors.iter().map(|compared| (compared.detector, &compared.equal)).collect();
+    let own: Vec<_> = detectors.iter().map(|compared| (compared, &compared.own)).collect();
+    let equal: Vec<_> = detectors.iter().map(|compared| (compared, &compared.equal)).collect();
     let percent = format!("at the threshold that at most {} of these runs without contact exceed", share(*rate));
     for (title, rows, with_bound) in [("at the scenario's thresholds", own, false), (&percent, equal, true)] {
         writeln!(out, "\n{title}")?;
@@ -101,8 +108,8 @@ fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
             out,
             "{detector:<16}{threshold:>10} {none:<5}{false_alarms:>9}{found:>9}{early:>9}{median:>9} s{ninety:>9} s"
         )?;
-        for (name, at) in rows {
-            detected(out, name, at.as_ref())?;
+        for (compared, at) in rows {
+            detected(out, (compared.detector, compared.method().setting_quantity(rule)), at.as_ref())?;
         }
         if let Some(bound) = bound.as_ref().filter(|_| with_bound) {
             let (median, ninety) = (shown(bound.median, 3), shown(bound.ninety, 3));
@@ -127,16 +134,16 @@ fn text(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
         )?;
         places.iter().try_for_each(|of| place(out, of))?;
     }
-    advice(out, comparison)
+    advice(out, comparison, rule)
 }
 
 /// Which threshold of each detector to take, and of which detector.
-fn advice(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> {
+fn advice(out: &mut impl Write, comparison: &Comparison, rule: Xi1Rule) -> std::io::Result<()> {
     let most = format!("at most {} false alarms", share(comparison.rate));
     writeln!(out, "\nadvice: the soonest threshold shown to give {most}, by the upper end of its 95 % interval")?;
     for compared in &comparison.detectors {
         let told = match &compared.advised {
-            Verdict::Take { point, .. } => taken(compared.method(), point),
+            Verdict::Take { point, .. } => taken(compared.method().setting_quantity(rule), point),
             Verdict::TooFewRuns { needed } => {
                 format!("none can be shown to: that takes at least --repeats {needed}, even when no run gives one")
             }
@@ -149,24 +156,26 @@ fn advice(out: &mut impl Write, comparison: &Comparison) -> std::io::Result<()> 
         writeln!(out, "{:<16}{told}", compared.detector)?;
     }
     match comparison.advice() {
-        Some((method, point)) => writeln!(out, "{:<16}{} at {}", "soonest", method.key(), threshold(method, point)),
+        Some((method, point)) => {
+            let at = threshold(method.setting_quantity(rule), point);
+            writeln!(out, "{:<16}{} at {at}", "soonest", method.key())
+        }
         None => Ok(()),
     }
 }
 
-fn threshold(method: Method, point: &Point) -> String {
-    let quantity = method.quantity();
+fn threshold(quantity: Quantity, point: &Point) -> String {
     // Three digits in SI are three in the unit shown, but for roundings.
     let shown = (quantity.shown(point.threshold) * 1e6).round() / 1e6;
     format!("{} {}", number(shown), quantity.unit()).trim_end().to_owned()
 }
 
-fn taken(method: Method, point: &Point) -> String {
+fn taken(quantity: Quantity, point: &Point) -> String {
     let seen = point.detection.map_or([f64::NAN; 2], |seen| [seen.median, seen.ninety]);
     let Share { count, of, low, high, .. } = point.false_alarms.rate;
     format!(
         "{}: {} s after contact (median; 90 % within {} s); {count} of {of} ({:.1} to {:.1} %) runs without contact give a false alarm",
-        threshold(method, point),
+        threshold(quantity, point),
         shown(seen[0], 3),
         shown(seen[1], 3),
         low * 100.0,
@@ -179,10 +188,8 @@ fn share(share: f64) -> String {
 }
 
 /// One detector at one threshold.
-fn detected(out: &mut impl Write, name: &str, at: Option<&At>) -> std::io::Result<()> {
+fn detected(out: &mut impl Write, (name, quantity): (&str, Quantity), at: Option<&At>) -> std::io::Result<()> {
     let Some(at) = at else { return writeln!(out, "{name:<16}{:>10}", "off") };
-    let quantity =
-        Method::ALL.iter().find(|method| method.key() == name).map_or(Quantity::Count, |method| method.quantity());
     writeln!(
         out,
         "{name:<16}{:>10} {:<5}{:>9}{:>9}{:>9}{:>9} s{:>9} s",

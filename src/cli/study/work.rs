@@ -2,7 +2,7 @@
 
 use crate::cli::interrupt;
 use centrode_core::study::Job;
-use centrode_core::study::compare::Compare;
+use centrode_core::study::compare::{Compare, Piece};
 use centrode_core::study::tuning::Study;
 use indicatif::{ProgressBar, ProgressStyle};
 use rayon::iter::{ParallelBridge, ParallelIterator};
@@ -29,9 +29,9 @@ pub fn work(study: Study) -> (Study, bool) {
 /// The same of a comparison.
 pub fn compare(compare: Compare) -> (Compare, bool) {
     let counted = compare.clone();
-    let make = |piece| compare.make(compare.piece(piece));
+    let make = |repeat| compare.make(Piece(repeat));
     let compare = repeat(counted, compare.progress().of, make, |counted, made| {
-        made.map(|made| counted.add(made));
+        counted.add(made);
     });
     let partial = !compare.progress().is_complete();
     (compare, partial)

@@ -5,7 +5,7 @@ use crate::facts::{quiet, run};
 use anyhow::{Context, Result};
 use centrode_core::chart::{Axis, Chart, Panel, Role, Series, Style};
 use centrode_core::detect::Settings;
-use centrode_core::detect::calibration::bound::place;
+use centrode_core::detect::calibration::bound::{Beginning, place};
 use centrode_core::detect::calibration::course::{Model, Planner};
 use centrode_core::run::Run;
 use centrode_core::scenario::{Plan, Threshold};
@@ -75,10 +75,11 @@ fn deviations(run: &Run) -> Result<Vec<[f64; 2]>> {
     let length = settings.segment.length;
     let model = Model { length, belief: settings.watching.belief, noise: settings.watching.declared };
     let moments = Planner::all(&model, &commands, false);
-    let beyond = |bend: f64| contact.side * (bend - contact.bend) > 0.0;
-    let first = commands.iter().position(|command| beyond(command.bend)).context("a reading in contact")?;
-    let began = first.checked_sub(1).context("a reading before the contact")?;
-    let times = commands[first..].iter().map(|command| command.time - commands[began].time);
+    let began =
+        Beginning::of(&commands, contact.bend, contact.side).context("readings before and after the contact")?;
+    let [from, to] = [began.reading, began.reading + 1].map(|k| commands[k].time);
+    let start = from + began.share * (to - from);
+    let times = commands[began.reading + 1..].iter().map(|command| command.time - start);
     let bounds = place(&moments, length, contact.arc_length, began);
     let points = times.zip(bounds).take_while(|(time, _)| *time <= SHOWN);
     Ok(points.map(|(time, bound)| [time, if bound < WORST { bound } else { f64::NAN }]).collect())

@@ -1,16 +1,38 @@
 //! What no detector and no estimator can do better with the same readings.
 
+use super::Command;
 use super::course::Moment;
 use super::filter::Responses;
 use crate::model::contact::{clamped_tip, free_tip};
-use crate::noise::{Normal, Source};
-use libm::sqrt;
+use libm::{erfc, sqrt};
 use nalgebra::Matrix2;
+use std::f64::consts::FRAC_1_SQRT_2;
 
-/// What a clamp at an arc length (in units of L), begun at the bend of the reading `began` and some of the way to the next, adds to the
-/// innovations of the readings after it.
-fn added(moments: &[Moment], length: f64, place: f64, began: usize, share: f64) -> Vec<[f64; 3]> {
-    let [from, to] = [began, began + 1].map(|k| moments.get(k).map_or(0.0, |moment| moment.command.bend));
+/// When a contact begins: the last reading before it, and how much of the way to the next the bend has gone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beginning {
+    /// The reading.
+    pub reading: usize,
+    /// From 0 to 1.
+    pub share: f64,
+}
+
+impl Beginning {
+    /// Of a contact that holds beyond a bend (rad): beyond is a larger one where `side` is positive. None where no reading was taken before
+    /// it, or after.
+    #[must_use]
+    pub fn of(commands: &[Command], bend: f64, side: f64) -> Option<Self> {
+        let after = commands.iter().position(|command| side * (command.bend - bend) > 0.0)?;
+        let reading = after.checked_sub(1)?;
+        let [from, to] = [reading, after].map(|k| commands[k].bend);
+        Some(Self { reading, share: ((bend - from) / (to - from)).clamp(0.0, 1.0) })
+    }
+}
+
+/// What a clamp at an arc length (in units of L) adds to the innovations of the readings after it began.
+fn added(moments: &[Moment], length: f64, place: f64, began: Beginning) -> Vec<[f64; 3]> {
+    let Beginning { reading, share } = began;
+    let [from, to] = [reading, reading + 1].map(|k| moments.get(k).map_or(0.0, |moment| moment.command.bend));
     let met = from + share * (to - from);
     let side = (to - from).signum();
     let mut response = Responses::<1>::default();
@@ -23,20 +45,20 @@ fn added(moments: &[Moment], length: f64, place: f64, began: usize, share: f64) 
         };
         response.step(&moment.stage, &[[off.x], [off.y]]).map(|[axis]| axis)
     };
-    moments.iter().skip(began + 1).map(step).collect()
+    moments.iter().skip(reading + 1).map(step).collect()
 }
 
-/// The least standard deviation (m) that an unbiased estimate of the place can have, at each reading after the contact began at the
-/// reading `began`: Cramér and Rao's bound, of place and beginning together, with the errors of the calibration unknown but for their
+/// The least standard deviation (m) that an unbiased estimate of the place can have, at each reading after the contact
+/// began: Cramér and Rao's bound, of place and beginning together, with the errors of the calibration unknown but for their
 /// prior. Infinite while the readings cannot tell the two apart. For a clamp at `place` (m) on a segment `length` m long.
 #[must_use]
-pub fn place(moments: &[Moment], length: f64, place: f64, began: usize) -> Vec<f64> {
+pub fn place(moments: &[Moment], length: f64, place: f64, began: Beginning) -> Vec<f64> {
     let (h, dt) = (1e-5, 1e-3);
     let share = place / length;
     let by = |a: Vec<[f64; 3]>, b: Vec<[f64; 3]>, step: f64| -> Vec<[f64; 3]> {
         a.iter().zip(&b).map(|(a, b)| [0, 1, 2].map(|i| (b[i] - a[i]) / step)).collect()
     };
-    let added = |place: f64, when: f64| added(moments, length, place, began, when);
+    let added = |place: f64, when: f64| added(moments, length, place, Beginning { share: began.share + when, ..began });
     let by_place = by(added(share - h, 0.0), added(share + h, 0.0), 2.0 * h * length);
     let by_time = by(added(share, 0.0), added(share, dt), dt);
     let mut information = Matrix2::<f64>::zeros();
@@ -49,103 +71,55 @@ pub fn place(moments: &[Moment], length: f64, place: f64, began: usize) -> Vec<f
     by_place.iter().zip(&by_time).map(bound).collect()
 }
 
-/// How late the best of all tests is, which knows where and when the contact begins: Neyman and Pearson's, at a false-alarm rate.
-#[derive(Debug, Clone, PartialEq, serde::Serialize)]
-pub struct Delays {
-    /// Threshold of its log likelihood ratio.
-    pub threshold: f64,
-    /// Readings from the contact to the alarm, in rising order; `usize::MAX` where there is none.
-    pub readings: Vec<usize>,
-}
-
-impl Delays {
-    /// By drawing `runs` runs without and as many with a contact at `place` (m), from a seed. `rate` is the share of runs without
-    /// contact in which it may alarm.
-    #[must_use]
-    pub fn drawn(moments: &[Moment], length: f64, contact: (f64, usize), rate: f64, runs: usize, seed: u64) -> Self {
-        let mut drawing = Drawing::new(moments, length, contact, (rate, runs), seed);
-        drawing.draw(usize::MAX);
-        drawing.delays()
-    }
-}
-
-/// Delays being drawn, some runs at a time.
-#[derive(Debug, Clone)]
-pub struct Drawing {
-    /// What each reading adds to the log likelihood ratio: its deviation, and half its square.
-    steps: Vec<[f64; 2]>,
-    normal: Normal,
+/// How late the best of all tests is, which knows where and when the contact begins, and all errors of the calibration but those that
+/// the filter takes out.
+///
+/// Of a test that alarms in a share α of all runs without contact, the alarms up to any reading are a test of that level. Neyman and
+/// Pearson's is the most powerful one, and detects by then in a share Φ(D − z) of all runs with contact: D² is what the readings add
+/// up to, z the deviation that a share α exceeds.
+///
+/// Gives the first reading after the contact by which `share` of the contacts can be detected: 1 for the first after `began`, 0 where no
+/// reading is needed, none where all of them say too little.
+#[must_use]
+pub fn delay(
+    moments: &[Moment],
+    length: f64,
+    (place, began): (f64, Beginning),
     rate: f64,
-    runs: usize,
-    /// The largest ratio of each run without contact so far; falling once all are drawn.
-    most: Vec<f64>,
-    readings: Vec<usize>,
+    share: f64,
+) -> Option<usize> {
+    let needed = exceeded(rate) + exceeded(1.0 - share);
+    if needed <= 0.0 {
+        return Some(0);
+    }
+    let mut square = 0.0;
+    added(moments, length, place / length, began)
+        .iter()
+        .position(|w| {
+            square += w.iter().map(|w| w * w).sum::<f64>();
+            sqrt(square) >= needed
+        })
+        .map(|before| before + 1)
 }
 
-impl Drawing {
-    /// As [`Delays::drawn`] has it, before the first of so many runs.
-    #[must_use]
-    pub fn new(
-        moments: &[Moment],
-        length: f64,
-        (place, began): (f64, usize),
-        (rate, runs): (f64, usize),
-        seed: u64,
-    ) -> Self {
-        let step = |w: &[f64; 3]| {
-            let square: f64 = w.iter().map(|w| w * w).sum();
-            [sqrt(square), 0.5 * square]
-        };
-        let steps = added(moments, length, place / length, began, 0.0).iter().map(step).collect();
-        Self { steps, normal: Normal::new(seed, Source::Bound), rate, runs, most: Vec::new(), readings: Vec::new() }
+/// The standard normal deviation that a share exceeds.
+fn exceeded(share: f64) -> f64 {
+    let (mut low, mut high) = (-40.0, 40.0);
+    for _ in 0..80 {
+        let middle = 0.5 * (low + high);
+        if 0.5 * erfc(middle * FRAC_1_SQRT_2) > share { low = middle } else { high = middle }
     }
+    0.5 * (low + high)
+}
 
-    /// Draws so many runs more, or all that are left; returns whether none are.
-    pub fn draw(&mut self, runs: usize) -> bool {
-        for _ in 0..runs {
-            if self.most.len() < self.runs {
-                self.free();
-            } else if self.readings.len() < self.runs {
-                self.held();
-            } else {
-                break;
-            }
+#[cfg(test)]
+mod tests {
+    use super::exceeded;
+
+    #[test]
+    fn deviations_are_those_of_tables() {
+        for (share, z) in [(0.5, 0.0), (0.01, 2.326_348), (0.9, -1.281_552), (0.0025, 2.807_034)] {
+            assert!((exceeded(share) - z).abs() < 1e-6, "{share}: {}", exceeded(share));
         }
-        self.readings.len() >= self.runs
-    }
-
-    fn free(&mut self) {
-        let (mut sum, mut most) = (0.0, f64::NEG_INFINITY);
-        for [deviation, half] in &self.steps {
-            sum += deviation * self.normal.draw() - half;
-            most = f64::max(most, sum);
-        }
-        self.most.push(most);
-        if self.most.len() == self.runs {
-            self.most.sort_by(|a, b| b.total_cmp(a));
-        }
-    }
-
-    fn held(&mut self) {
-        let threshold = self.threshold();
-        let (mut sum, mut first) = (0.0, usize::MAX);
-        for (k, [deviation, half]) in self.steps.iter().enumerate() {
-            sum += deviation * self.normal.draw() + half;
-            if first == usize::MAX && sum > threshold {
-                first = k + 1;
-            }
-        }
-        self.readings.push(first);
-    }
-
-    fn threshold(&self) -> f64 {
-        self.most.get((self.rate * self.runs as f64) as usize).copied().unwrap_or(0.0)
-    }
-
-    /// What was drawn comes to.
-    #[must_use]
-    pub fn delays(mut self) -> Delays {
-        self.readings.sort_unstable();
-        Delays { threshold: self.threshold(), readings: self.readings }
     }
 }

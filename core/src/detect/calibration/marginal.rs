@@ -79,7 +79,11 @@ pub struct Question<'a> {
     pub parts: u32,
 }
 
-/// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved.
+/// An error of the calibration is believed up to so many of its prior standard deviations.
+const BELIEVED: f64 = 6.0;
+
+/// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved, and where the readings before the
+/// contact tell of calibration errors far beyond those that were thought possible.
 #[must_use]
 pub fn estimate(history: &History, question: &Question) -> Option<Estimate> {
     let (innovations, before) = nominal(history);
@@ -209,6 +213,10 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let Question { kinds, parts, .. } = *question;
     let History { model, moments, readings } = history;
     let last = readings.len().min(moments.len()).checked_sub(1)?;
+    // The model is linear about errors that were thought possible: beyond them nothing it says of a place is to be believed.
+    if calibrated.states.iter().take(super::DRIFT).any(|state| state.abs() > BELIEVED) {
+        return None;
+    }
     let errors = linear::errors(&calibrated.states, &model.belief.deviations);
     let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);

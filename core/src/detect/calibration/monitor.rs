@@ -18,8 +18,8 @@ pub struct Watching {
     pub noise: [Option<f64>; 3],
     /// What the tracker's noise is taken for where it can be neither known nor measured.
     pub declared: Noise,
-    /// Whether the [`glr`](super::glr) is computed.
-    pub with_bank: bool,
+    /// What it is never taken for less than, unless it is known.
+    pub least: Noise,
 }
 
 impl Watching {
@@ -30,13 +30,13 @@ impl Watching {
             None
         } else {
             let still = noise::still(&readings.commands);
-            noise::measured(length, &self.belief, &readings.commands[..still], &readings.poses[..still])
+            noise::measured(length, &self.belief, &self.least, &readings.commands[..still], &readings.poses[..still])
         };
-        let other = measured.unwrap_or(self.declared);
+        let (other, least) = (measured.unwrap_or(self.declared), &self.least);
         let [position, orientation, colour] = self.noise;
         Noise {
-            position: position.unwrap_or(other.position).max(noise::FLOOR.position),
-            orientation: orientation.unwrap_or(other.orientation).max(noise::FLOOR.orientation),
+            position: position.unwrap_or(other.position.max(least.position)).max(noise::FLOOR.position),
+            orientation: orientation.unwrap_or(other.orientation.max(least.orientation)).max(noise::FLOOR.orientation),
             colour: colour.unwrap_or(other.colour),
         }
     }
@@ -108,14 +108,14 @@ pub struct Monitor {
 
 impl Monitor {
     /// Before the first entry. `commands` are those of the readings to come, of which the fastest says how old a contact [`cusum`]
-    /// looks for.
+    /// looks for; `with_bank` where [`glr`](super::glr) is to work.
     #[must_use]
-    pub fn new(watching: &Watching, clock: &Clock, model: &Model, commands: impl Iterator<Item = Command>) -> Self {
+    pub fn new(clock: &Clock, model: &Model, with_bank: bool, commands: impl Iterator<Item = Command>) -> Self {
         let age = cusum::age(model, commands);
         Self {
             tip_from_marker: clock.tip_from_marker,
             model: *model,
-            planner: Planner::new(model, age, watching.with_bank),
+            planner: Planner::new(model, age, with_bank),
             listener: Listener::new(model, age),
             readings: Readings::default(),
             heard: Vec::new(),

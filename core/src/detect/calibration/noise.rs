@@ -10,6 +10,18 @@ use libm::{exp, log, sqrt};
 pub const STILL: usize = 20;
 /// Noise is never taken for less: a tracker without any still rounds.
 pub const FLOOR: Noise = Noise { position: 5e-6, orientation: 2e-5, colour: 0.0 };
+
+/// What noise is never taken for less than where the tracker rounds to these steps (m, rad): no step is known better than by an even
+/// deviation within it.
+#[must_use]
+pub fn floor(position: f64, orientation: f64) -> Noise {
+    let even = |step: f64| step / sqrt(12.0);
+    Noise {
+        position: even(position).max(FLOOR.position),
+        orientation: even(orientation).max(FLOOR.orientation),
+        colour: 0.0,
+    }
+}
 /// A correlation below this many of its standard errors is taken for none.
 const PLAIN: f64 = 3.0;
 const MOST: f64 = 0.99;
@@ -42,11 +54,12 @@ pub fn still(commands: &[Command]) -> usize {
 
 /// Noise of readings that were taken while the robot stood still; `None` where there are fewer than [`STILL`].
 ///
-/// The correlation is that of successive readings, and none where it may be by chance. Where the tracker is thought to drift, the
+/// The correlation is that of successive readings, and none where it may be by chance; what varies less than the floor is rounding, which
+/// may have any. Where the tracker is thought to drift, the
 /// deviations are those of successive differences, less what drift adds to them, and what is left is taken for white. Nothing is
-/// below [`FLOOR`].
+/// below `least` (see [`floor`]).
 #[must_use]
-pub fn measured(length: f64, belief: &Belief, commands: &[Command], readings: &[Pose]) -> Option<Noise> {
+pub fn measured(length: f64, belief: &Belief, least: &Noise, commands: &[Command], readings: &[Pose]) -> Option<Noise> {
     let command = commands.first()?;
     if readings.len() < STILL {
         return None;
@@ -66,7 +79,9 @@ pub fn measured(length: f64, belief: &Belief, commands: &[Command], readings: &[
     let places = [1, 2, 3];
     let turns = [0, 4, 5];
     let variance = |of: [usize; 3]| of.iter().map(|&i| squares[i]).sum::<f64>() / (3.0 * (count - 1.0));
-    let shares: Vec<f64> = (0..6).filter(|&i| squares[i] > 0.0).map(|i| products[i] / squares[i]).collect();
+    let floor = |i: usize| if places.contains(&i) { least.position } else { least.orientation };
+    let varies = |&i: &usize| squares[i] > floor(i) * floor(i) * count;
+    let shares: Vec<f64> = (0..6).filter(varies).map(|i| products[i] / squares[i]).collect();
     let share = if shares.is_empty() { 0.0 } else { shares.iter().sum::<f64>() / shares.len() as f64 };
     // Taking the mean away makes the correlation come out lower by about (1 + 3ρ)/n.
     let colour = share + (1.0 + 3.0 * share) / count;
@@ -82,12 +97,12 @@ pub fn measured(length: f64, belief: &Belief, commands: &[Command], readings: &[
         let drift = belief.deviations[DRIFT..].iter().map(|sigma| sigma * sigma).sum::<f64>() / 3.0;
         let place = steps(places) - drift * (1.0 - kept(belief, interval));
         let (position, orientation) = (sqrt(place.max(0.0)), sqrt(steps(turns)));
-        let (position, orientation) = (position.max(FLOOR.position), orientation.max(FLOOR.orientation));
+        let (position, orientation) = (position.max(least.position), orientation.max(least.orientation));
         return Some(Noise { position, orientation, colour: 0.0 });
     }
     Some(Noise {
-        position: sqrt(variance(places)).max(FLOOR.position),
-        orientation: sqrt(variance(turns)).max(FLOOR.orientation),
+        position: sqrt(variance(places)).max(least.position),
+        orientation: sqrt(variance(turns)).max(least.orientation),
         colour,
     })
 }
@@ -196,7 +211,7 @@ mod tests {
         for (colour, position, orientation) in [(0.0, 5e-5, 2e-4), (0.5, 5e-4, 2e-3), (0.8, 1e-4, 1e-3)] {
             let all: Vec<Noise> = (1..40)
                 .map(|seed| still(colour, position, orientation, seed))
-                .map(|readings| measured(0.03, &Belief::default(), &commands, &readings).expect("enough"))
+                .map(|readings| measured(0.03, &Belief::default(), &FLOOR, &commands, &readings).expect("enough"))
                 .collect();
             let mean = |of: fn(&Noise) -> f64| all.iter().map(of).sum::<f64>() / all.len() as f64;
             // Of three coordinates two move, of three angles one.
@@ -206,8 +221,8 @@ mod tests {
             assert!((mean(|noise| noise.colour) - colour).abs() < 0.02, "{colour}: {}", mean(|noise| noise.colour));
         }
         let exact = vec![planar(0.0, 0.03, 0.0); 100];
-        assert_eq!(measured(0.03, &Belief::default(), &commands, &exact), Some(FLOOR));
-        assert_eq!(measured(0.03, &Belief::default(), &commands, &exact[..STILL - 1]), None);
+        assert_eq!(measured(0.03, &Belief::default(), &FLOOR, &commands, &exact), Some(FLOOR));
+        assert_eq!(measured(0.03, &Belief::default(), &FLOOR, &commands, &exact[..STILL - 1]), None);
     }
 
     #[test]

@@ -180,7 +180,6 @@ mod tests {
             let exact = Branch::new(Meeting { place, bend: met, side: 1.0 }, Surface::Plane, 1.3);
             (exact.tip(bend).position - free_tip(bend)) * length
         };
-        println!("{:e} {:e}", most_off(&clamps, clamp), most_off(&planes, plane));
         for (i, place) in places().into_iter().enumerate() {
             assert!((clamp(place) - Planar::new(clamps[0][i], clamps[1][i])).norm() < 1e-16);
             assert!((plane(place) - Planar::new(planes[0][i], planes[1][i])).norm() < 1e-6, "{place}");

@@ -30,7 +30,8 @@ impl Watched {
         if self.heard.len() == KEPT && self.readings.arrived.last().is_some_and(|last| *last < time) {
             return None;
         }
-        self.readings.arrived.partition_point(|arrived| *arrived <= time).checked_sub(1)
+        // Times are added up of decimals: one that falls on a reading's is meant to.
+        self.readings.arrived.partition_point(|arrived| *arrived <= time + 1e-9).checked_sub(1)
     }
 
     /// Places the contact that an alarm told of, from readings up to `until` without those of contacts that had been left before the

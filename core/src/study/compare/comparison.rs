@@ -145,7 +145,7 @@ impl Compare {
         let detectors: Vec<Compared> = self.task.methods.iter().enumerate().map(compared).collect();
         let white = self.outcomes.values().filter_map(|outcome| outcome.white);
         let (tested, passed) = white.fold((0, 0), |(of, count), white| (of + 1, count + u64::from(white)));
-        let bounds: Vec<Bound> = self.limits.delays().into_iter().map(|(rate, delay)| Bound { rate, delay }).collect();
+        let bounds: Vec<Bound> = self.limits.delays().iter().map(|&(rate, delay)| Bound { rate, delay }).collect();
         let places = self.places();
         let last = BEYOND * places.iter().map(|place| place.since).fold(0.0, f64::max);
         let known = self.limits.places().iter().filter(|limit| limit.since <= last && limit.bound.is_finite());
@@ -213,8 +213,7 @@ impl Compare {
         let scatter = mean(&|placed| (placed.error * placed.error - square) * (placed.error * placed.error - square));
         let away = Z * sqrt(scatter / count);
         let covered = placed.iter().filter(|placed| placed.covers).count() as u64;
-        // The contact began after the reading from which its bound counts.
-        let reading = self.limits.places().iter().find(|limit| limit.since >= since - 1e-9);
+        let reading = self.limits.places().iter().rfind(|limit| limit.since <= since + 1e-9);
         Some(Place {
             estimator: estimator.word(),
             after,
