@@ -19,6 +19,7 @@ pub mod link;
 pub mod log;
 pub mod memo;
 pub mod message;
+pub mod mirror;
 pub mod panels;
 pub mod saving;
 pub mod stages;
@@ -41,6 +42,7 @@ use controls::Inputs;
 use embed::Embed;
 use helper::Helper;
 use helper::lent::Lent;
+use keys::Holder;
 use layout::Layout;
 use lesson::captions::{self, Captions};
 use lesson::{At, Lesson, Wish};
@@ -49,6 +51,7 @@ use log::Logs;
 use memo::{Memo, Refusal};
 use message::Listener;
 use panels::chip::Chip;
+use panels::cover::Cover;
 use panels::gallery::Gallery;
 use stages::StageState;
 use stages::comparer::Comparer;
@@ -106,6 +109,7 @@ pub struct App {
     lesson: Lesson,
     captions: Captions,
     gallery: Gallery,
+    cover: Cover,
     prefers_reduced_motion: bool,
 }
 
@@ -135,6 +139,7 @@ impl App {
             lesson: Lesson::new(host.progress),
             captions: Captions::new(untouched),
             gallery: Gallery::default(),
+            cover: Cover::default(),
             view: ViewState::new(render_state, host.prefers_reduced_motion),
             prefers_reduced_motion: host.prefers_reduced_motion,
             embed: host.embed,
@@ -201,6 +206,8 @@ impl App {
                 Some(recorded) => words::log::sentence(run, recorded),
                 None => story::sentence(run),
             },
+            "said": words::said::said(run, time),
+            "sound": self.sound(),
             "log": self.log(),
             "tuning": match self.state.stage {
                 Stage::Tuning => self.tuner.report(self.state.tuning.rule),
@@ -211,6 +218,18 @@ impl App {
         .to_string()
     }
 
+    /// What is heard: the deviation over its threshold, while it is played and there are both; none without sound.
+    fn sound(&self) -> Option<serde_json::Value> {
+        if !self.state.sound || !self.state.playing {
+            return None;
+        }
+        let run = self.memo.run();
+        let threshold = run.plan.scenario().detection.xi2.value();
+        let ratio = threshold.map(|xi2| run.sample_at(self.cursor()).judgement.deviation / xi2);
+        // What is undefined is null in JSON.
+        Some(serde_json::json!({ "ratio": ratio }))
+    }
+
     /// The whole page.
     pub fn ui(&mut self, ui: &mut Ui) {
         let mut out = Vec::new();
@@ -218,8 +237,7 @@ impl App {
         if ui.ctx().current_pass_index() == 0 {
             // Before the keys are taken.
             self.captions.go_on(self.state.playing, captions::touched(ui));
-            let covered = self.state.help || self.sharing.notice.is_some() || self.logs.form.is_some();
-            keys::read(ui, self.end(), self.state.stage, covered, &mut out);
+            keys::read(ui, self.end(), self.state.stage, self.holder(ui), &mut out);
             if let Some(step) = self.lesson.due.take() {
                 out.push(Command::Lesson(Wish::Tour(step)));
             }
@@ -322,7 +340,7 @@ impl App {
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
-        let cursor = self.cursor();
+        let (cursor, covered) = (self.cursor(), self.is_covered());
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
         self.plots.marks = self.state.marks;
@@ -346,6 +364,7 @@ impl App {
             lesson,
             captions,
             gallery,
+            cover,
             prefers_reduced_motion,
         } = self;
         let (state, run) = (&*state, memo.run());
@@ -355,14 +374,16 @@ impl App {
             panels::log::banner(ui, top, banner, out);
         }
         if let Some(rect) = layout.title {
-            panels::title::title(ui, rect, state, gallery, out);
+            layout::part(ui, "title", |ui| panels::title::title(ui, rect, state, gallery, out));
         }
         if let Some(rect) = layout.views {
-            panels::views::views(ui, rect, state.stage, state.paper, out);
+            layout::part(ui, "views", |ui| panels::views::views(ui, rect, state.stage, state.paper, out));
         }
         if embed.is_none() {
-            panels::title::tools(ui, layout.tools, state, layout.sheet, out);
-            lesson::menu::menu(ui, layout.tools, (lesson, state.lesson.is_some()), out);
+            layout::part(ui, "tools", |ui| {
+                panels::title::tools(ui, layout.tools, state, layout.sheet, out);
+                lesson::menu::menu(ui, (layout.tools, layout.sheet), (lesson, state.lesson.is_some()), out);
+            });
         }
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
@@ -383,7 +404,7 @@ impl App {
             });
         }
         let robot = state.stage == Stage::Robot;
-        let covered = layout.stage();
+        let whole = layout.stage();
         if let Some(rect) = layout.view.filter(|_| plate) {
             layout::card(ui, "plate", rect, |ui| lesson::plate::view::plate(ui, rect, lesson.plate(), out));
         } else if robot {
@@ -418,7 +439,7 @@ impl App {
                 comparer,
                 tuning: state.tuning,
             };
-            layout::card(ui, "stage", covered, |ui| stages::stage(ui, covered, &inputs, studies, stages, out));
+            layout::card(ui, "stage", whole, |ui| stages::stage(ui, whole, &inputs, studies, stages, out));
         }
         if let Some(rect) = layout.transport {
             layout::card(ui, "transport", rect, |ui| {
@@ -447,19 +468,23 @@ impl App {
             }),
         };
         for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
-            if let Some(rect) = rect.filter(|rect| robot || !covered.contains_rect(*rect)) {
+            if let Some(rect) = rect.filter(|rect| robot || !whole.contains_rect(*rect)) {
                 layout::card(ui, "card", rect, |_| ());
                 show(ui, tab, rect, out);
             }
         }
-        if let Some(rect) = layout.tabbed.filter(|rect| robot || !covered.contains_rect(*rect)) {
+        if let Some(rect) = layout.tabbed.filter(|rect| robot || !whole.contains_rect(*rect)) {
             layout::card(ui, "tabbed", rect, |_| ());
             let (strip, below) = layout::tab_strip(rect);
             panels::tabs::tabs(ui, strip, state.tab, out);
             show(ui, state.tab, below, out);
         }
-        if state.help {
-            words::help::help(ui, out);
+        let by_key = cover.update(ui, covered);
+        if state.help && !state.keys {
+            words::help::help(ui, (state.sound, by_key), out);
+        }
+        if state.keys {
+            words::keys::keys(ui, by_key, out);
         }
         panels::share::said(ui, layout.tools, sharing.said(ui));
         if let Some(form) = &logs.form {

@@ -5,6 +5,7 @@
 
 mod logs;
 mod messages;
+mod mirror;
 mod outside;
 mod widgets;
 mod worker;
@@ -94,6 +95,9 @@ extern "C" {
     /// The bytes of a log are wanted, see [`logs::log_fetched`].
     #[wasm_bindgen(method, js_name = fetchLog)]
     fn fetch_log(this: &Hooks, number: u32);
+    /// The elements that stand for the interface; `json` is an `app::mirror::Mirror`.
+    #[wasm_bindgen(method)]
+    fn mirror(this: &Hooks, json: &str);
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
@@ -153,10 +157,8 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
     let name = std::rc::Rc::new(Cell::new(""));
     let name_out = std::rc::Rc::clone(&name);
     let create = move |cc: &eframe::CreationContext<'_>| {
-        if test {
-            cc.egui_ctx.enable_accesskit();
-            cc.egui_ctx.add_plugin(widgets::Collector);
-        }
+        cc.egui_ctx.enable_accesskit();
+        cc.egui_ctx.add_plugin(mirror::Plugin::default());
         CONTEXT.set(Some(cc.egui_ctx.clone()));
         TEST.set(test);
         if let Some(state) = &cc.wgpu_render_state {
@@ -259,7 +261,7 @@ impl Shell {
     }
 }
 
-/// Every widget on the page as a JSON array, see [`widgets::Collector`]. Empty unless opened by a test.
+/// Every widget on the page as a JSON array, see [`widgets::to_json`]. Empty unless opened by a test.
 #[wasm_bindgen]
 pub fn widgets() -> String {
     widgets::to_json()

@@ -1,6 +1,7 @@
 // Loads the program, starts it on the canvas, and keeps the page readable whatever goes wrong.
 import { address, fragment, listen, tell } from "./address.js";
 import { download } from "./download.js";
+import { elements } from "./elements.js";
 import { passThrough } from "./embed.js";
 import { acceptDrops, choose, chooseLog, picture, pixels, save } from "./files.js";
 import { logs } from "./logs.js";
@@ -11,6 +12,7 @@ import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunnin
 import { program, SINGLE } from "./parts.js";
 import * as progress from "./progress.js";
 import { readQuery } from "./query.js";
+import { sound } from "./sound.js";
 import { studies } from "./studies.js";
 
 const { settings, notices } = readQuery(location.search);
@@ -38,7 +40,9 @@ function describe(cause) {
 const hooks = {
   report(json) {
     if (failed) return;
-    mirror.report(JSON.parse(json));
+    const report = JSON.parse(json);
+    mirror.report(report);
+    sound(report);
     if (mirror.ready) return;
     mirror.ready = true;
     // The first frame was computed just now and is on the screen after the next one.
@@ -60,6 +64,7 @@ const hooks = {
   chooseLog: () => {},
   readLog: () => {},
   fetchLog: () => {},
+  mirror: () => {},
 };
 
 /// A canvas is bound to one kind of context for good, so every further attempt gets a fresh one.
@@ -69,6 +74,15 @@ function freshCanvas() {
   canvas.removeAttribute("style");
   old.replaceWith(canvas);
   return canvas;
+}
+
+/// The elements take the keyboard and tell what there is; the canvas takes the pointer, and the field beside it what is typed there.
+function leaveToElements(canvas) {
+  canvas.tabIndex = -1;
+  for (const field of document.querySelectorAll("#stage > input")) {
+    field.tabIndex = -1;
+    field.setAttribute("aria-label", "Text typed into the picture");
+  }
 }
 
 async function startOnSome(core) {
@@ -91,6 +105,7 @@ async function startOnSome(core) {
     };
     try {
       const used = await core.start(canvas, options, hooks);
+      leaveToElements(canvas);
       mirror.renderer = used;
       if (settings.renderer !== "auto" && settings.renderer !== used) {
         notices.push(`renderer=${settings.renderer} is not available in this browser; the page draws with ${used} instead.`);
@@ -121,6 +136,7 @@ async function main() {
   hooks.picture = (...drawing) => picture(core, ...drawing);
   hooks.pixels = (...image) => pixels(core, ...image);
   acceptDrops(core, kept);
+  hooks.mirror = elements(document.getElementById("elements"), core, () => document.getElementById("canvas"));
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (!(await startOnSome(core))) return;

@@ -1,6 +1,7 @@
 // The state in words, for screen readers and tests: what a canvas cannot tell.
 
 const element = document.getElementById("mirror");
+const said = document.getElementById("said");
 const SPEAK_EVERY_MS = 1000;
 let spoken = "";
 let pending = null;
@@ -20,8 +21,10 @@ function set(key, value) {
 }
 
 export const mirror = {
-  /// `{ state, time, detection_time, location, summary, tuning, log }` as `App::report` gives it.
-  report({ state, time, detection_time: detectionTime, location, summary, tuning, log }) {
+  /// `{ state, time, detection_time, location, summary, said, tuning, log }` as `App::report` gives it.
+  report({ state, time, detection_time: detectionTime, location, summary, said: sentence, tuning, log }) {
+    // A state is said as it begins, and none as the page opens.
+    if (element.dataset.state && element.dataset.state !== state) said.textContent = sentence;
     set("state", state);
     set("time", time);
     set("detectionTime", detectionTime);

@@ -6,7 +6,7 @@ use crate::app::controls::control::Control;
 use crate::app::panels::save;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::words::refusal;
-use crate::app::{controls, memo, state};
+use crate::app::{controls, memo, state, theme};
 use centrode_core::scenario::keys::find;
 use centrode_core::scenario::preset::Preset;
 use centrode_core::scenario::{Contact, Method, Place, Scenario, Start, Threshold, Thresholds, Xi1Rule};
@@ -82,7 +82,7 @@ impl App {
                 Command::ResetChoice(choice) => self.restore(choice.of.path, |from, to| choice.of.copy(from, to)),
                 Command::NextTheme => {
                     self.state.theme = self.state.theme.next();
-                    ctx.set_theme(self.state.theme.preference());
+                    theme::choose(ctx, self.state.theme);
                 }
                 Command::Fold(group) => {
                     if !self.state.folded.remove(group) {
@@ -92,6 +92,8 @@ impl App {
                 Command::ShowTab(tab) => self.state.tab = tab,
                 Command::ToggleSheet => self.state.sheet = !self.state.sheet,
                 Command::ToggleHelp => self.state.help = !self.state.help,
+                Command::ToggleSound => self.state.sound = !self.state.sound,
+                Command::ToggleKeys => self.state.keys = !self.state.keys,
                 Command::Log(wish) => self.wish_of_log(wish),
                 Command::Lesson(wish) => self.wish_of_lesson(ctx, wish),
                 Command::Theory(symbol) => self.theory(symbol),

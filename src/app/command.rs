@@ -132,6 +132,10 @@ pub enum Command {
     ToggleSheet,
     /// Open or close the help.
     ToggleHelp,
+    /// Let the run be heard, or no longer.
+    ToggleSound,
+    /// Open or close the list of keys.
+    ToggleKeys,
     /// Open the theory, at a symbol or at its beginning.
     Theory(Option<&'static Symbol>),
     /// Hand something out, or ask for something to come in.

@@ -18,9 +18,10 @@ use crate::app::controls::table::GROUPS;
 use crate::app::fonts;
 use crate::app::layout;
 use crate::app::memo::recorded::Recorded;
+use crate::app::mirror;
 use crate::app::state::State;
 use crate::app::theme::Theme;
-use crate::app::widgets::{icon, text};
+use crate::app::widgets::{focus, icon, text};
 use crate::app::words::log;
 use centrode_core::scenario::Scenario;
 use row::Context;
@@ -43,8 +44,9 @@ pub struct Inputs<'a> {
 
 /// Shows the controls.
 pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let edge = if inputs.touch { 4.0 } else { 10.0 };
     let (scrolled, foot) = ui.max_rect().split_top_bottom_at_y(ui.max_rect().bottom() - 52.0);
-    layout::inside(ui, "reset", foot.shrink2(vec2(16.0, 10.0)), |ui| reset_all(ui, inputs, out));
+    layout::inside(ui, "reset", foot.shrink2(vec2(16.0, edge)), |ui| reset_all(ui, inputs, out));
     let mut ui = ui.new_child(UiBuilder::new().max_rect(scrolled));
     ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
         Frame::new().inner_margin(Margin { left: 16, right: 16, top: 6, bottom: 6 }).show(ui, |ui| {
@@ -62,13 +64,16 @@ pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
 fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let open = !inputs.state.folded.contains(group.name);
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), 29.0), Sense::click());
+    let height = if inputs.touch { row::TARGET } else { 29.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), open, group.name));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(open));
     let shown = ui.ctx().animate_bool(response.id, open);
     let ink = if response.hovered() || response.has_focus() { theme.ink } else { theme.dim };
     text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, group.name, fonts::strong(12.5), theme.ink);
     icon::chevron(ui.painter(), rect.right_center() - vec2(6.0, 0.0), shown, ink);
+    focus::ring(ui, rect, &response);
     if response.clicked() {
         out.push(Command::Fold(group.name));
     }
@@ -76,6 +81,7 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
         return;
     }
     ui.push_id(group.name, |ui| {
+        mirror::mark(ui, mirror::Part::Group, group.name);
         let scenario = &inputs.state.scenario;
         let (base, touch) = (inputs.base, inputs.touch);
         let note = |key| inputs.notes.get(key).map(String::as_str);

@@ -87,7 +87,9 @@ mod tests {
         for (title, body) in words::help::PARAGRAPHS {
             texts.extend([(*title).into(), (*body).into()]);
         }
-        texts.extend(words::help::KEYS.iter().flat_map(|(key, what)| [(*key).into(), (*what).into()]));
+        let keys =
+            words::keys::KEYS.iter().flat_map(|(place, keys)| [(*place, "")].into_iter().chain(keys.iter().copied()));
+        texts.extend(keys.flat_map(|(key, what)| [key.into(), what.into()]));
 
         let mut fonts = Fonts::new(TextOptions::default(), definitions());
         let mut view = fonts.with_pixels_per_point(1.0);

@@ -2,8 +2,10 @@
 
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
+use crate::app::controls::row::TARGET;
 use crate::app::embed::{Embed, TOOL};
 use crate::app::lesson::tour::Focus;
+use crate::app::mirror;
 use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
@@ -199,13 +201,13 @@ impl Layout {
     /// Views and 3D on top, tabs or the sheet below, playback under the thumb.
     fn phone(page: Rect, sheet: f32, framed: bool) -> Self {
         let mut rest = inner(page);
-        let row = rest.top(42.0);
+        let row = rest.top(TARGET);
         let bar = if framed {
             Bar::in_one(row, 0.0, true, true)
         } else {
             let mut row = Cut(row);
             let tools = row.right(tools_width(true));
-            Bar { title: Some(row.0), views: rest.top(38.0), tools }
+            Bar { title: Some(row.0), views: rest.top(TARGET), tools }
         };
         let transport = rest.bottom(TALL);
         let share = egui::lerp(0.52..=0.36, sheet);
@@ -216,7 +218,7 @@ impl Layout {
     /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
     fn low(page: Rect, sheet: f32, framed: bool) -> Self {
         let mut rest = inner(page);
-        let bar = rest.top(42.0);
+        let bar = rest.top(TARGET);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
         let side = rest.right(rest.0.width() * 0.5);
         // Beside the tools and four views that can be read.
@@ -332,17 +334,45 @@ pub fn round(ui: &Ui, rect: Rect) {
     ui.painter().rect_stroke(rect, f32::from(crate::app::theme::ROUND), edge, egui::StrokeKind::Outside);
 }
 
+/// What the parts of the page are called by those who do not see them; others are parts of these.
+const PARTS: [(&str, &str); 10] = [
+    ("title", "Experiment"),
+    ("views", "Views"),
+    ("tools", "Tools"),
+    ("controls", "Controls"),
+    ("view", "3D view"),
+    ("stage", "Stage"),
+    ("transport", "Playback"),
+    ("readout", "Result"),
+    ("plots", "Plots"),
+    ("plane", "Bending plane"),
+];
+
+/// Shows a part of the page that keeps to its place by itself.
+pub fn part<R>(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui) -> R) -> R {
+    let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(ui.max_rect()));
+    told(&child, name);
+    content(&mut child)
+}
+
+fn told(ui: &Ui, name: &str) {
+    if let Some((_, told)) = PARTS.iter().find(|(part, _)| *part == name) {
+        mirror::mark(ui, mirror::Part::Region, told);
+    }
+}
+
 /// Shows content in a rectangle.
 pub fn inside<R>(ui: &mut Ui, name: &str, rect: Rect, content: impl FnOnce(&mut Ui) -> R) -> R {
     let mut child = ui.new_child(egui::UiBuilder::new().id_salt(name).max_rect(rect));
     child.shrink_clip_rect(rect);
+    told(&child, name);
     content(&mut child)
 }
 
 /// The strip of tabs in a tabbed card, and what is below.
 #[must_use]
 pub fn tab_strip(rect: Rect) -> (Rect, Rect) {
-    let strip = Rect::from_min_max(rect.min + vec2(8.0, 8.0), pos2(rect.right() - 8.0, rect.top() + 42.0));
+    let strip = Rect::from_min_max(rect.min + vec2(8.0, 4.0), pos2(rect.right() - 8.0, rect.top() + 4.0 + TARGET));
     (strip, rect.with_min_y(strip.bottom() + 4.0))
 }
 

@@ -2,8 +2,10 @@
 
 pub mod chip;
 pub mod columns;
+pub mod cover;
 pub mod gallery;
 pub mod log;
+pub mod menu;
 pub mod notice;
 pub mod readout;
 pub mod save;

@@ -56,6 +56,10 @@ pub struct State {
     pub help: bool,
     /// Where one is in the lessons; none outside of them.
     pub lesson: Option<At>,
+    /// Whether the run is heard, too.
+    pub sound: bool,
+    /// Whether the list of keys is open.
+    pub keys: bool,
 }
 
 /// What is looked at while tuning.
@@ -115,6 +119,8 @@ impl Default for State {
             sheet: false,
             help: false,
             lesson: None,
+            sound: false,
+            keys: false,
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::fonts;
 use crate::scene::Color;
-use crate::scene::palette::Palette;
+use crate::scene::palette::{Palette, Shade};
 
 /// Corner radius of a card, points.
 pub const ROUND: u8 = 10;
@@ -26,6 +26,8 @@ pub enum ThemeChoice {
     Light,
     /// Dark.
     Dark,
+    /// Light, with stronger colours, larger type and thicker lines.
+    Projector,
 }
 
 impl ThemeChoice {
@@ -33,9 +35,10 @@ impl ThemeChoice {
     #[must_use]
     pub fn next(self) -> Self {
         match self {
-            Self::System => Self::Light,
-            Self::Light => Self::Dark,
-            Self::Dark => Self::System,
+            Self::System => Self::Dark,
+            Self::Dark => Self::Light,
+            Self::Light => Self::Projector,
+            Self::Projector => Self::System,
         }
     }
 
@@ -44,7 +47,7 @@ impl ThemeChoice {
     pub fn preference(self) -> egui::ThemePreference {
         match self {
             Self::System => egui::ThemePreference::System,
-            Self::Light => egui::ThemePreference::Light,
+            Self::Light | Self::Projector => egui::ThemePreference::Light,
             Self::Dark => egui::ThemePreference::Dark,
         }
     }
@@ -53,8 +56,12 @@ impl ThemeChoice {
 /// Every colour the interface uses.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Theme {
+    /// What the page is seen on.
+    pub shade: Shade,
     /// Whether the background is dark.
     pub dark: bool,
+    /// How many times thicker lines are than on a screen.
+    pub weight: f32,
     /// The model without constraint.
     pub model: Color32,
     /// The model with the constraint.
@@ -65,6 +72,8 @@ pub struct Theme {
     pub force: Color32,
     /// A detection.
     pub detection: Color32,
+    /// A detection in words, and what is behind words of it.
+    pub alarm: Color32,
     /// Robot.
     pub robot: Color32,
     /// Obstacle, and contact with it.
@@ -75,6 +84,8 @@ pub struct Theme {
     pub dim: Color32,
     /// Lines and rails.
     pub faint: Color32,
+    /// Lines by which a control or its state is known.
+    pub edge: Color32,
     /// Behind everything.
     pub surface: Color32,
     /// Cards.
@@ -98,32 +109,50 @@ impl Theme {
     /// The theme this `ui` is drawn in.
     #[must_use]
     pub fn of(ui: &egui::Ui) -> Self {
-        Self::new(ui.visuals().dark_mode)
+        let visuals = ui.visuals();
+        // The style says it by its lines.
+        Self::new(match visuals.dark_mode {
+            true => Shade::Dark,
+            false if visuals.window_stroke.width > 1.0 => Shade::Projector,
+            false => Shade::Light,
+        })
     }
 
-    /// The dark or the light theme.
+    /// The theme of a shade.
     #[must_use]
-    pub fn new(dark: bool) -> Self {
-        let hex = |light: u32, dark_: u32| color(Color::hex(if dark { dark_ } else { light }));
-        let palette = Palette::for_dark(dark);
+    pub fn new(shade: Shade) -> Self {
+        let dark = shade == Shade::Dark;
+        let three = |light: u32, dark: u32, projector: u32| {
+            color(Color::hex(match shade {
+                Shade::Dark => dark,
+                Shade::Light => light,
+                Shade::Projector => projector,
+            }))
+        };
+        let hex = |light: u32, dark: u32| three(light, dark, light);
+        let palette = Palette::of(shade);
         Self {
+            shade,
             dark,
+            weight: if shade == Shade::Projector { 1.6 } else { 1.0 },
             model: color(palette.model),
             constrained: color(palette.constrained),
             sensor: color(palette.sensor),
             force: color(palette.force),
             detection: color(palette.detection),
-            robot: hex(0x7C8896, 0xAEBBC8),
+            alarm: three(0xB84F00, 0xFF7F3A, 0xA84400),
+            robot: three(0x7C8896, 0xAEBBC8, 0x5A6572),
             obstacle: color(palette.stone),
             ink: color(palette.ink),
             dim: color(palette.ink_dim),
-            faint: hex(0xDCE1E7, 0x2C343E),
+            faint: three(0xDCE1E7, 0x2C343E, 0xA9B1BA),
+            edge: three(0x7C8792, 0x6B7785, 0x6B747E),
             surface: hex(0xE9EDF1, 0x0C0F13),
             panel: hex(0xFFFFFF, 0x161B21),
             raised: hex(0xF1F4F7, 0x20262E),
             accent: color(palette.choice),
             on_accent: hex(0xFFFFFF, 0x14101F),
-            error: hex(0xB3203E, 0xFF8296),
+            error: three(0xB3203E, 0xFF8296, 0x9A1532),
         }
     }
 
@@ -133,7 +162,7 @@ impl Theme {
         let state = |fill: Color32, text: Color32, edge: Color32| egui::style::WidgetVisuals {
             bg_fill: fill,
             weak_bg_fill: fill,
-            bg_stroke: Stroke::new(1.0, edge),
+            bg_stroke: Stroke::new(self.weight, edge),
             corner_radius: radius,
             fg_stroke: Stroke::new(1.0, text),
             expansion: 0.0,
@@ -142,7 +171,7 @@ impl Theme {
         let none = Color32::TRANSPARENT;
         visuals.widgets = egui::style::Widgets {
             noninteractive: state(self.panel, self.ink, self.faint),
-            inactive: state(self.raised, self.ink, none),
+            inactive: state(self.raised, self.ink, if self.weight > 1.0 { self.edge } else { none }),
             hovered: state(hover, self.ink, none),
             active: state(hover, self.ink, self.accent),
             open: state(hover, self.ink, self.faint),
@@ -159,7 +188,7 @@ impl Theme {
         visuals.error_fg_color = self.error;
         visuals.panel_fill = self.surface;
         visuals.window_fill = self.panel;
-        visuals.window_stroke = Stroke::new(1.0, self.faint);
+        visuals.window_stroke = Stroke::new(self.weight, self.faint);
         visuals.window_corner_radius = CornerRadius::same(ROUND);
         visuals.menu_corner_radius = CornerRadius::same(8);
         let shadow = Shadow {
@@ -179,9 +208,9 @@ impl Theme {
 /// Sets fonts, and the styles of both themes.
 pub fn install(ctx: &egui::Context) {
     fonts::install(ctx);
-    for (theme, dark) in [(egui::Theme::Dark, true), (egui::Theme::Light, false)] {
+    for (theme, shade) in [(egui::Theme::Dark, Shade::Dark), (egui::Theme::Light, Shade::Light)] {
         let mut style = (*ctx.style_of(theme)).clone();
-        style.visuals = Theme::new(dark).visuals();
+        style.visuals = Theme::new(shade).visuals();
         style.text_styles = fonts::text_styles();
         style.drag_value_text_style = egui::TextStyle::Body;
         style.spacing.item_spacing = vec2(8.0, 6.0);
@@ -197,6 +226,22 @@ pub fn install(ctx: &egui::Context) {
     }
 }
 
+/// How many times larger everything is for a projector.
+const LARGER: f32 = 1.25;
+/// Where the page is less wide, points, larger type would leave no room for what it says.
+const NARROW: f32 = 1000.0;
+
+/// Shows the page in a theme.
+pub fn choose(ctx: &egui::Context, choice: ThemeChoice) {
+    let projector = choice == ThemeChoice::Projector;
+    let mut style = (*ctx.style_of(egui::Theme::Light)).clone();
+    style.visuals = Theme::new(if projector { Shade::Projector } else { Shade::Light }).visuals();
+    ctx.set_style_of(egui::Theme::Light, style);
+    ctx.set_theme(choice.preference());
+    let width = ctx.content_rect().width() * ctx.zoom_factor();
+    ctx.set_zoom_factor(if projector && width >= NARROW { LARGER } else { 1.0 });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,15 +251,72 @@ mod tests {
         scene(a).contrast(scene(b))
     }
 
+    const SHADES: [Shade; 3] = [Shade::Dark, Shade::Light, Shade::Projector];
+
+    /// WCAG 2.2, 1.4.3: text, 4.5 to 1.
     #[test]
     fn text_can_be_read_on_everything_it_stands_on() {
-        for theme in [Theme::new(false), Theme::new(true)] {
+        for theme in SHADES.map(Theme::new) {
             for ground in [theme.surface, theme.panel, theme.raised] {
-                for (text, least) in [(theme.ink, 10.0), (theme.dim, 4.2), (theme.error, 4.5), (theme.accent, 4.5)] {
+                for (text, least) in [(theme.ink, 10.0), (theme.dim, 4.5), (theme.error, 4.5), (theme.accent, 4.5)] {
                     assert!(contrast(text, ground) > least, "{text:?} on {ground:?}: {}", contrast(text, ground));
                 }
             }
+            for ground in [theme.panel, theme.raised] {
+                assert!(contrast(theme.alarm, ground) > 4.5, "{:?} on {ground:?}", theme.alarm);
+            }
             assert!(contrast(theme.on_accent, theme.accent) > 4.5);
+            // The word on the chip.
+            let word = if theme.dark { theme.surface } else { theme.panel };
+            assert!(contrast(word, theme.alarm) > 4.5);
         }
+    }
+
+    /// WCAG 2.2, 1.4.11: lines, marks and controls, 3 to 1.
+    #[test]
+    fn lines_and_controls_stand_out() {
+        for theme in SHADES.map(Theme::new) {
+            let lines = [
+                ("model", theme.model),
+                ("constrained", theme.constrained),
+                ("sensor", theme.sensor),
+                ("force", theme.force),
+                ("detection", theme.detection),
+                ("likelihood", color(Palette::of(theme.shade).likelihood)),
+                ("robot", theme.robot),
+                ("obstacle", theme.obstacle),
+                ("edge", theme.edge),
+                ("accent", theme.accent),
+            ];
+            for ground in [theme.panel, theme.raised] {
+                for (name, line) in lines {
+                    // Amber on white cannot reach it; its circles have a dark edge and its lines a place in the legend.
+                    let least = if (name, theme.shade) == ("constrained", Shade::Light) { 2.0 } else { 3.0 };
+                    let found = contrast(line, ground);
+                    assert!(found > least, "{name} in {:?} on {ground:?}: {found}", theme.shade);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_projector_has_thicker_lines_and_the_rest_of_the_cycle_none() {
+        let ctx = egui::Context::default();
+        install(&ctx);
+        let mut seen = Vec::new();
+        let mut choice = ThemeChoice::System;
+        for _ in 0..4 {
+            choice = choice.next();
+            choose(&ctx, choice);
+            let style = ctx.style_of(if choice == ThemeChoice::Dark { egui::Theme::Dark } else { egui::Theme::Light });
+            seen.push((choice, style.visuals.window_stroke.width > 1.0));
+        }
+        let wanted = [
+            (ThemeChoice::Dark, false),
+            (ThemeChoice::Light, false),
+            (ThemeChoice::Projector, true),
+            (ThemeChoice::System, false),
+        ];
+        assert_eq!(seen, wanted);
     }
 }

@@ -2,6 +2,7 @@
 
 pub mod button;
 pub mod field;
+pub mod focus;
 pub mod icon;
 pub mod rail;
 pub mod segmented;

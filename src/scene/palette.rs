@@ -5,6 +5,17 @@
 
 use super::{Color, Studio};
 
+/// What the page is seen on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shade {
+    /// A screen, on a dark background.
+    Dark,
+    /// A screen, on a light background.
+    Light,
+    /// A wall in a room that is not dark.
+    Projector,
+}
+
 /// The colours of everything the views and plots name.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Palette {
@@ -66,7 +77,7 @@ impl Palette {
         mark: Color::hex(0x39424E),
         stone: Color::hex(0x69635A),
         ink: Color::hex(0x1D232B),
-        ink_dim: Color::hex(0x66707C),
+        ink_dim: Color::hex(0x616B76),
         halo: Color::hex(0xFFFFFF),
         grid: Color::rgba(0.16, 0.22, 0.30, 0.26),
         glow: Color::rgba(1.0, 1.0, 1.0, 0.0),
@@ -96,6 +107,32 @@ impl Palette {
         ground_shadow: 0.55,
     };
 
+    /// For a projector, which washes colours out: every signal has at least five times less light than the white behind it.
+    pub const PROJECTOR: Self = Self {
+        model: Color::hex(0x005A8C),
+        constrained: Color::hex(0x9A5F00),
+        sensor: Color::hex(0x00664A),
+        force: Color::hex(0x8A2F66),
+        likelihood: Color::hex(0x1A6A94),
+        detection: Color::hex(0xA84400),
+        choice: Color::hex(0x4433B8),
+        mark: Color::hex(0x20262E),
+        stone: Color::hex(0x57524A),
+        ink: Color::hex(0x000000),
+        ink_dim: Color::hex(0x3C444D),
+        ..Self::LIGHT
+    };
+
+    /// The palette of a shade.
+    #[must_use]
+    pub const fn of(shade: Shade) -> Self {
+        match shade {
+            Shade::Dark => Self::DARK,
+            Shade::Light => Self::LIGHT,
+            Shade::Projector => Self::PROJECTOR,
+        }
+    }
+
     /// The palette for a dark or a light theme.
     pub const fn for_dark(dark: bool) -> Self {
         if dark { Self::DARK } else { Self::LIGHT }
@@ -108,7 +145,7 @@ mod tests {
 
     #[test]
     fn signals_and_text_can_be_read() {
-        for palette in [Palette::LIGHT, Palette::DARK] {
+        for palette in [Palette::LIGHT, Palette::DARK, Palette::PROJECTOR] {
             for background in [palette.studio.inner, palette.studio.outer] {
                 assert!(palette.ink.contrast(background) > 12.0);
                 assert!(palette.ink_dim.contrast(background) > 4.0);

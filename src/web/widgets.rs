@@ -1,7 +1,8 @@
 //! The widgets of the last frame as JSON, read from egui's accessibility tree.
 //!
-//! eframe drops that tree in the browser, so a plugin picks it up.
+//! eframe drops that tree in the browser, so a plugin picks it up ([`super::mirror`]).
 
+use crate::app::mirror::name;
 use egui::accesskit::{Node, NodeId, Toggled, TreeUpdate};
 use serde_json::{Value, json};
 use std::cell::RefCell;
@@ -11,20 +12,9 @@ thread_local! {
     static LAST: RefCell<Option<(TreeUpdate, f64)>> = const { RefCell::new(None) };
 }
 
-/// Keeps the accessibility tree of the last frame.
-pub struct Collector;
-
-impl egui::Plugin for Collector {
-    fn debug_name(&self) -> &'static str {
-        "widgets"
-    }
-
-    fn output_hook(&mut self, ctx: &egui::Context, output: &mut egui::FullOutput) {
-        if let Some(update) = output.platform_output.accesskit_update.take() {
-            // Bounds are in points; the page counts in CSS pixels.
-            LAST.set(Some((update, f64::from(ctx.zoom_factor()))));
-        }
-    }
+/// Keeps the accessibility tree of the last frame, and how many CSS pixels a point is.
+pub fn keep(update: TreeUpdate, scale: f64) {
+    LAST.set(Some((update, scale)));
 }
 
 /// `[{ id, role, label, value, number, min, max, step, on, disabled, focused, bounds: [x, y, width, height] }]`, bounds in CSS pixels.
@@ -39,16 +29,6 @@ pub fn to_json() -> String {
             update.nodes.iter().map(|(id, node)| describe(*id, node, &nodes, update.focus, *scale)).collect();
         Value::Array(list).to_string()
     })
-}
-
-/// A widget's name: its own label, or the texts of the widgets that label it.
-fn name(node: &Node, nodes: &HashMap<NodeId, &Node>) -> Option<String> {
-    if let Some(label) = node.label() {
-        return Some(label.to_owned());
-    }
-    let texts: Vec<&str> =
-        node.labelled_by().iter().filter_map(|id| nodes.get(id)).filter_map(|by| by.label().or(by.value())).collect();
-    (!texts.is_empty()).then(|| texts.join(" "))
 }
 
 fn describe(id: NodeId, node: &Node, nodes: &HashMap<NodeId, &Node>, focus: NodeId, scale: f64) -> Value {

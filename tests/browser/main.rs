@@ -22,9 +22,11 @@
     reason = "tests read files, run programs and wait for them"
 )]
 
+mod axe;
 mod carried;
 mod core;
 mod detectors;
+mod elements;
 mod embed;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]

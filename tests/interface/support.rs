@@ -40,7 +40,7 @@ pub fn paused(mut page: Page) -> Page {
 
 /// Chooses a theme: the page follows the system until someone does.
 pub fn choose_theme(page: &mut Page, theme: egui::Theme) {
-    for _ in 0..if theme == egui::Theme::Light { 1 } else { 2 } {
+    for _ in 0..if theme == egui::Theme::Light { 2 } else { 1 } {
         page.get_by_label_contains("Theme: ").click();
         page.run_steps(2);
     }

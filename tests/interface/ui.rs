@@ -311,7 +311,7 @@ fn presets_theme_groups_and_help() {
     click(&mut page, "aligned");
     assert_eq!(app(&page).state().scenario.tracker.mounting, centrode_core::scenario::Mounting::Aligned);
     click(&mut page, "Theme: system");
-    assert!(page.query_by_label("Theme: light").is_some());
+    assert!(page.query_by_label("Theme: dark").is_some());
     click(&mut page, "Help");
     page.run_steps(2);
     assert!(page.query_by_label_contains("What the fixed centrode is").is_some(), "{:?}", app(&page).state().help);
@@ -351,6 +351,33 @@ fn every_input_has_a_name_and_nothing_leaves_the_page() {
                 assert!(rect.left() >= screen.left() && rect.right() <= screen.right(), "{size}: {node:?}");
             }
         }
+    }
+}
+
+#[test]
+fn a_finger_hits_everything_on_a_phone() {
+    for (size, sheet) in [(vec2(390.0, 844.0), false), (vec2(390.0, 844.0), true), (vec2(360.0, 640.0), true)] {
+        let mut page = page_of(size);
+        if sheet {
+            click(&mut page, "Controls");
+            page.run_steps(3);
+        }
+        let mut small = Vec::new();
+        for node in page.root().children_recursive() {
+            let role = node.accesskit_node().role();
+            let button = matches!(role, Role::Button | Role::CheckBox | Role::RadioButton | Role::Tab);
+            let name = node.accesskit_node().label().unwrap_or_default();
+            // A link in a line of text is as high as that, and handles on plots have fields and switches beside them.
+            let target = button || matches!(role, Role::Slider | Role::TextInput);
+            if !target || name.contains("plot") {
+                continue;
+            }
+            let rect = node.rect();
+            if rect.width().min(rect.height()) < 43.5 {
+                small.push(format!("{role:?} {name}: {:.0} × {:.0}", rect.width(), rect.height()));
+            }
+        }
+        assert!(small.is_empty(), "at {size}, {}: {small:#?}", if sheet { "sheet" } else { "views" });
     }
 }
 

@@ -100,7 +100,7 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Page => page(options.dev, dist).map(drop),
         Stage::Browser => {
-            let browser = tools::browser()?;
+            let (browser, axe) = (tools::browser()?, tools::axe()?);
             // Not at the root, so that an absolute address anywhere in the page shows.
             let dist = page(options.dev, dist)?;
             let page = serve::background(&dist, "/deep/path/")?;
@@ -111,7 +111,8 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
                 .args(&options.arguments)
                 .env("CENTRODE_PAGE", page)
                 .env("CENTRODE_DIST", &dist)
-                .env("CENTRODE_BROWSER", browser))
+                .env("CENTRODE_BROWSER", browser)
+                .env("CENTRODE_AXE", axe))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What the build and the tests need on a machine, installed when it is missing.
 
-use crate::run::{output, run};
+use crate::run::{output, run, target};
 use anyhow::{Context, Result, bail};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -51,6 +51,29 @@ fn find_browser() -> Option<PathBuf> {
         .flat_map(|folder| NAMES.map(|name| folder.join(name)))
         .chain(MAC.map(PathBuf::from))
         .find(|candidate| candidate.is_file())
+}
+
+/// The version of axe-core that looks at the page.
+const AXE: &str = "axe-core@4.10.3";
+
+/// The script of axe-core, which finds what is wrong for assistive technology; brought by npm, for tests alone.
+pub fn axe() -> Result<PathBuf> {
+    let folder = target().join("axe").join(AXE);
+    let script = folder.join("node_modules/axe-core/axe.min.js");
+    if script.is_file() {
+        return Ok(script);
+    }
+    if !succeeds(Command::new("npm").arg("--version")) {
+        install(&["npm"]).context("the browser tests look at the page with axe-core, which npm brings")?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let arguments = ["install", "--no-save", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix"];
+    run(Command::new("npm").args(arguments).arg(&folder).arg(AXE))
+        .with_context(|| format!("npm could not bring {AXE}"))?;
+    if !script.is_file() {
+        bail!("npm brought {AXE} without {}", script.display());
+    }
+    Ok(script)
 }
 
 /// A software Vulkan for machines without a GPU, so that wgpu draws in the headless interface tests.

@@ -3,7 +3,7 @@
 use crate::app::charts::notation::{job, job_in};
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use crate::scene::palette::Palette;
+use crate::scene::palette::{Palette, Shade};
 use crate::show::ink;
 use centrode_core::chart::clip::{self, Spot};
 use centrode_core::chart::layout::{Align, Drawing, Form, Frame, Ink, Item, Page, Paint, Text, layout, over};
@@ -66,7 +66,7 @@ pub fn color(ink: Ink, theme: &Theme) -> Color32 {
         Ink::Grid => theme.faint.gamma_multiply(0.7),
         Ink::Role(Role::Robot) => theme.robot,
         _ => {
-            let [r, g, b, a] = ink::color(ink, &Palette::for_dark(theme.dark), theme.dark).to_bytes();
+            let [r, g, b, a] = ink::color(ink, &Palette::of(theme.shade), theme.dark).to_bytes();
             Color32::from_rgba_unmultiplied(r, g, b, a)
         }
     }
@@ -95,7 +95,7 @@ fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> T
 /// A chart as it was last shown: kept while what it was made of, its key, and the page stay the same.
 pub struct Picture<K> {
     key: K,
-    dark: bool,
+    shade: Shade,
     chart: Chart,
     maps: Vec<Option<TextureHandle>>,
     laid: Option<(Page, Drawing)>,
@@ -110,14 +110,14 @@ impl<K: PartialEq> Picture<K> {
         (key, soft): (K, bool),
         make: impl FnOnce() -> Chart,
     ) -> &'a mut Self {
-        let same = kept.take().filter(|picture| picture.key == key && picture.dark == theme.dark);
+        let same = kept.take().filter(|picture| picture.key == key && picture.shade == theme.shade);
         kept.insert(same.unwrap_or_else(|| {
             let chart = make();
             let map = |panel: &centrode_core::chart::Panel| {
                 panel.map.as_ref().map(|map| texture(ctx, &panel.title, map, theme, soft))
             };
             let maps = chart.panels.iter().map(map).collect();
-            Self { key, dark: theme.dark, chart, maps, laid: None }
+            Self { key, shade: theme.shade, chart, maps, laid: None }
         }))
     }
 
@@ -186,7 +186,7 @@ impl Brush<'_> {
             }
             Item::Band(edges, paint) => self.band(edges, self.color(*paint)),
             Item::Line(points, paint, wide, dash) => {
-                let stroke = Stroke::new((*wide as f32).max(1.0), self.color(*paint));
+                let stroke = Stroke::new((*wide as f32).max(1.0) * self.theme.weight, self.color(*paint));
                 let points = self.sharp(points.iter().map(|point| self.pos(*point)).collect());
                 match dash {
                     Some([on, off]) => {
@@ -294,15 +294,15 @@ mod tests {
             Chart { panels: vec![panel], ..Chart::default() }
         };
         let mut kept: Option<Picture<u32>> = None;
-        let mut image = |key: u32, dark: bool| {
-            let picture = Picture::keep(&mut kept, &ctx, &Theme::new(dark), (key, false), chart);
+        let mut image = |key: u32, shade: Shade| {
+            let picture = Picture::keep(&mut kept, &ctx, &Theme::new(shade), (key, false), chart);
             picture.maps[0].as_ref().map(TextureHandle::id)
         };
-        let light = image(1, false);
-        assert!(light.is_some() && image(1, false) == light, "kept");
+        let light = image(1, Shade::Light);
+        assert!(light.is_some() && image(1, Shade::Light) == light, "kept");
         // What stands back in a map is mixed with the theme's ground.
-        let dark = image(1, true);
+        let dark = image(1, Shade::Dark);
         assert_ne!(dark, light);
-        assert_ne!(image(2, true), dark);
+        assert_ne!(image(2, Shade::Dark), dark);
     }
 }

@@ -15,9 +15,11 @@ use crate::app::widgets::text;
 use crate::app::widgets::toggle::toggle;
 use centrode_core::scenario::Scenario;
 
+/// What a finger hits, points.
+pub const TARGET: f32 = 44.0;
 /// Heights of the line with the field and of the slider; larger for a finger.
 const HEIGHTS: (f32, f32) = (24.0, 19.0);
-const TOUCH: (f32, f32) = (32.0, 30.0);
+const TOUCH: (f32, f32) = (TARGET, TARGET);
 const FIELD: f32 = 84.0;
 /// So many options of which any can hold stand in a row.
 const IN_A_ROW: usize = 3;
@@ -52,7 +54,8 @@ fn heading(
     if !differs {
         return false;
     }
-    let place = Rect::from_center_size(drawn.right_center() + vec2(15.0, 0.0), vec2(22.0, 22.0));
+    let side = if rect.height() < TARGET { 22.0 } else { TARGET };
+    let place = Rect::from_center_size(drawn.right_center() + vec2(4.0 + 0.5 * side, 0.0), vec2(side, side));
     ui.push_id(key, |ui| icon::button(ui, place, Icon::Reset, &format!("Reset {label}"), icon::Look::Plain))
         .inner
         .clicked()
@@ -72,14 +75,17 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
 
     let (shown, unit) = control.text(scenario);
     let value = control.value(scenario);
-    let place = Rect::from_min_max(line.right_top() - vec2(FIELD, 0.0), line.right_bottom());
+    let wide = if *touch { FIELD + 12.0 } else { FIELD };
+    let place = Rect::from_min_max(line.right_top() - vec2(wide, 0.0), line.right_bottom());
     let name = format!("{label} value");
-    let entry = Field { label: &name, key: control.key, shown: &shown, unit, refused: note.is_some() };
+    let digits = control.range(scenario).0 >= 0.0 && control.words.is_none();
+    let entry = Field { label: &name, key: control.key, shown: &shown, unit, digits, refused: note.is_some() };
     if let Some(typed) = field(ui, place, &entry) {
         out.push(Command::Enter(control, typed));
     }
     if control.has_off() {
-        let place = Rect::from_center_size(place.left_center() - vec2(22.0, 0.0), vec2(32.0, line_height));
+        let wide = if *touch { TARGET } else { 32.0 };
+        let place = Rect::from_center_size(place.left_center() - vec2(6.0 + 0.5 * wide, 0.0), vec2(wide, line_height));
         let on = if control.of.off() == Some("auto") { "given" } else { "on" };
         if toggle(ui, place, &format!("{label} {on}"), value.is_some()) {
             out.push(Command::Switch(control, value.is_none()));
@@ -118,7 +124,9 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     let width = ui.available_width();
     let (line_height, _) = if context.touch { TOUCH } else { HEIGHTS };
     let rows = if choice.of.is_words() { choice.options.len().div_ceil(IN_A_ROW) } else { 1 };
-    let height = 28.0 * rows as f32;
+    // Rows of boxes have a gap between them.
+    let gap = if choice.of.is_words() { 2.0 } else { 0.0 };
+    let height = if context.touch { TARGET + gap } else { 28.0 } * rows as f32;
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     let differs = choice.differs(context.scenario, context.base);

@@ -31,7 +31,7 @@ impl Chip {
         let color = match phase {
             Phase::Free | Phase::Quiet => theme.dim,
             Phase::Contact => theme.obstacle,
-            Phase::Detected | Phase::FalseAlarm => theme.detection,
+            Phase::Detected | Phase::FalseAlarm => theme.alarm,
         };
         let font = fonts::strong(13.5);
         let word = text::width(ui, phase.words(), font.clone());

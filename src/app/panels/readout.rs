@@ -23,7 +23,7 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());
             for (said, color) in
-                [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.detection)]
+                [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.alarm)]
             {
                 if let Some(said) = said {
                     ui.add_space(5.0);
@@ -49,7 +49,7 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
 /// A figure: its name at the left, number and unit in columns at the right.
 fn line(ui: &mut Ui, rect: egui::Rect, figure: &Figure, theme: &Theme) {
     let ink = match figure.name {
-        "Detected" | "Estimate" if figure.value != "–" => theme.detection,
+        "Detected" | "Estimate" if figure.value != "–" => theme.alarm,
         _ if figure.value == "–" => theme.dim,
         _ => theme.ink,
     };

@@ -3,6 +3,7 @@
 use egui::{Context, Id, Popup, Rect, Role, Ui};
 
 use crate::app::command::Command;
+use crate::app::panels::menu;
 use crate::app::panels::title::choice;
 use crate::app::saving::Subject;
 use crate::app::theme::Theme;
@@ -48,22 +49,17 @@ pub fn menu_with(ui: &mut Ui, rect: Rect, subject: Subject, marked: bool, out: &
     let label = format!("Save {}", subject.name());
     let response = icon::button(ui, rect, Icon::Save, &label, Look::Plain);
     let id = Popup::default_response_id(&response);
-    let was_open = Popup::is_id_open(ui.ctx(), id);
     if is_asked(ui.ctx(), subject) {
         Popup::open_id(ui.ctx(), id);
+        response.request_focus();
+        menu::enter(ui.ctx(), id);
     }
-    let opens = !was_open && (response.clicked() || Popup::is_id_open(ui.ctx(), id));
     let width = (ui.ctx().content_rect().width() - 40.0).min(300.0);
-    Popup::menu(&response).accessible_name(&label).width(width).show(|ui| {
+    menu::show(ui, &response, &label, width, |ui| {
         ui.set_width(width);
         ui.spacing_mut().item_spacing.y = 2.0;
-        for (k, &format) in subject.formats(marked).iter().enumerate() {
-            let item = choice(ui, Role::MenuItem, format.words(subject), false, &theme);
-            if k == 0 && opens {
-                // Whoever opened it with a key goes on with keys.
-                item.request_focus();
-            }
-            if item.clicked() {
+        for &format in subject.formats(marked) {
+            if choice(ui, Role::MenuItem, format.words(subject), false, &theme).clicked() {
                 out.push(Command::Save(subject, format));
                 ui.close();
             }

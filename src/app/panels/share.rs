@@ -1,9 +1,10 @@
 //! The menu by which things leave the page and come in, and what is said in passing.
 
-use egui::{Align2, Popup, Rect, Role, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Rect, Role, Ui, WidgetInfo, pos2, vec2};
 
 use crate::app::command::{Command, Share};
 use crate::app::fonts;
+use crate::app::panels::menu;
 use crate::app::panels::title::item;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
@@ -30,7 +31,7 @@ pub fn menu(ui: &mut Ui, rect: Rect, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let response = icon::button(ui, rect, Icon::Share, "Share", Look::Plain);
     let width = (ui.ctx().content_rect().width() - 40.0).min(320.0);
-    Popup::menu(&response).accessible_name("Share").width(width).show(|ui| {
+    menu::show(ui, &response, "Share", width, |ui| {
         ui.set_width(width);
         ui.spacing_mut().item_spacing.y = 2.0;
         for (what, title, summary) in ITEMS {

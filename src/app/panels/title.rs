@@ -5,11 +5,13 @@ use egui::{
 };
 
 use crate::app::command::Command;
+use crate::app::controls::row::TARGET;
 use crate::app::fonts;
 use crate::app::panels::gallery::Gallery;
-use crate::app::panels::share;
+use crate::app::panels::{menu, share};
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
+use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
 use centrode_core::scenario::preset::Preset;
@@ -39,32 +41,34 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out:
 /// Width that [`tools`] takes, points.
 #[must_use]
 pub fn tools_width(sheet: bool) -> f32 {
-    if sheet { 196.0 } else { 158.0 }
+    if sheet { 5.0 * TARGET } else { 158.0 }
 }
 
 /// Shows sharing, theme and help; `sheet` asks for the button that opens the controls.
 pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<Command>) {
-    let mut right = rect.right_center() - vec2(20.0, 0.0);
-    let mut place = |width: f32| {
-        let place = Rect::from_center_size(right, vec2(34.0, 34.0));
-        right.x -= width;
+    let (side, apart) = if sheet { (TARGET, TARGET) } else { (34.0, 38.0) };
+    let mut right = rect.right_center() - vec2(0.5 * side + if sheet { 0.0 } else { 3.0 }, 0.0);
+    let mut place = || {
+        let place = Rect::from_center_size(right, vec2(side, side));
+        right.x -= apart;
         place
     };
-    if icon::button(ui, place(38.0), Icon::Help, "Help", Look::Plain).clicked() {
+    if icon::button(ui, place(), Icon::Help, "Help", Look::Plain).clicked() {
         out.push(Command::ToggleHelp);
     }
     let (sign, label) = match state.theme {
         ThemeChoice::System => (Icon::System, "Theme: system"),
         ThemeChoice::Light => (Icon::Light, "Theme: light"),
         ThemeChoice::Dark => (Icon::Dark, "Theme: dark"),
+        ThemeChoice::Projector => (Icon::Projector, "Theme: projector"),
     };
-    if icon::button(ui, place(38.0), sign, label, Look::Plain).clicked() {
+    if icon::button(ui, place(), sign, label, Look::Plain).clicked() {
         out.push(Command::NextTheme);
     }
-    share::menu(ui, place(38.0), out);
+    share::menu(ui, place(), out);
     if sheet {
         let look = if state.sheet { Look::Lit } else { Look::Plain };
-        if icon::button(ui, place(38.0), Icon::Controls, "Controls", look).clicked() {
+        if icon::button(ui, place(), Icon::Controls, "Controls", look).clicked() {
             out.push(Command::ToggleSheet);
         }
     }
@@ -110,7 +114,7 @@ fn presets(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &
     let screen = ui.ctx().content_rect();
     let width = (screen.width() - 56.0).min(900.0);
     gallery.open = false;
-    Popup::menu(&response).accessible_name("Presets").width(width).show(|ui| {
+    menu::show(ui, &response, "Presets", width, |ui| {
         let height = screen.bottom() - rect.bottom() - 40.0;
         ScrollArea::vertical().max_height(height).min_scrolled_height(height).show(ui, |ui| {
             ui.set_width(width);
@@ -143,6 +147,7 @@ pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), ch
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }
+    focus::ring(ui, rect, &response);
     ui.painter().galley(rect.min + vec2(10.0, 6.0), galley, theme.ink);
     response
 }

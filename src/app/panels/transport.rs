@@ -6,6 +6,7 @@ use crate::app::charts::notation::number;
 use crate::app::command::Command;
 use crate::app::controls::control::Scale;
 use crate::app::controls::quantity;
+use crate::app::controls::row::TARGET;
 use crate::app::fonts;
 use crate::app::memo;
 use crate::app::state::State;
@@ -25,23 +26,23 @@ pub const TALL: f32 = 104.0;
 /// Shows playback with the cursor (s) of the views; in two rows where it is narrow.
 pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f64), out: &mut Vec<Command>) {
     let narrow = rect.height() > FLAT + 1.0;
-    let size = if narrow { 40.0 } else { 34.0 };
+    let size = if narrow { TARGET } else { 34.0 };
     let y = if narrow { rect.bottom() - 30.0 } else { rect.center().y };
     let mut x = rect.left() + if narrow { 8.0 } else { 10.0 };
     let mut place = |width: f32| {
         x += width;
-        Rect::from_center_size(pos2(x - width / 2.0, y), vec2(width - 2.0, size))
+        Rect::from_center_size(pos2(x - width / 2.0, y), vec2(if narrow { width } else { width - 2.0 }, size))
     };
 
     // On the narrowest phones the scrub bar alone goes to the start.
-    if rect.width() >= 370.0 && icon::button(ui, place(size), Icon::ToStart, "To start", Look::Plain).clicked() {
+    if rect.width() >= 380.0 && icon::button(ui, place(size), Icon::ToStart, "To start", Look::Plain).clicked() {
         out.push(Command::Seek(0.0));
     }
     if icon::button(ui, place(size), Icon::StepBack, "Step back", Look::Plain).clicked() {
         out.push(Command::Step(-1));
     }
     let (sign, label) = if state.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
-    let round = Rect::from_center_size(place(size + 8.0).center(), vec2(size, size));
+    let round = Rect::from_center_size(place(size + if narrow { 2.0 } else { 8.0 }).center(), vec2(size, size));
     if icon::button(ui, round, sign, label, Look::Accent).clicked() {
         out.push(Command::TogglePlay);
     }
@@ -50,7 +51,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
     }
     let theme = Theme::of(ui);
     let clock = number(cursor, 3);
-    let at = pos2(x + if narrow { 6.0 } else { 12.0 }, y);
+    let at = pos2(x + if narrow { 4.0 } else { 12.0 }, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
     let unit = text::paint(
         ui,
@@ -60,22 +61,22 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
         fonts::regular(13.0),
         theme.dim,
     );
-    let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + 10.0;
+    let left = at.x + text::width(ui, "00.000", fonts::strong(14.5)) + unit.width() + if narrow { 4.0 } else { 10.0 };
 
-    let mut right = rect.right() - if narrow { 6.0 } else { 10.0 };
+    let mut right = rect.right() - if narrow { 4.0 } else { 10.0 };
     right -= size;
     let look = if state.looping { Look::Lit } else { Look::Plain };
-    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(34.0, 34.0));
+    let corner = Rect::from_center_size(pos2(right + size / 2.0, y), vec2(size, size));
     if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
         out.push(Command::ToggleLoop);
     }
-    let rail_width = if narrow { (right - left - 46.0).clamp(30.0, 110.0) } else { 92.0 };
-    right -= if narrow { 4.0 } else { 8.0 };
+    let rail_width = if narrow { (right - left - 44.0).clamp(30.0, 110.0) } else { 92.0 };
+    right -= if narrow { 2.0 } else { 8.0 };
     speed(ui, pos2(right, y), rail_width, size, state, out);
     right -= rail_width + 56.0;
 
     let track = if narrow {
-        Rect::from_min_max(rect.min + vec2(8.0, 6.0), pos2(rect.right() - 8.0, rect.bottom() - 56.0))
+        Rect::from_min_max(rect.min + vec2(8.0, 6.0), pos2(rect.right() - 8.0, rect.bottom() - 54.0))
     } else {
         Rect::from_min_max(pos2(left + 4.0, rect.top() + 8.0), pos2(right, rect.bottom() - 8.0))
     };

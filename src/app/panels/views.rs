@@ -13,11 +13,14 @@ use crate::app::widgets::text;
 const WIDTH: f32 = 380.0;
 /// Its height, points.
 const HEIGHT: f32 = 34.0;
+/// The same where fingers are: nothing but this row is there.
+const TALL: f32 = 44.0;
 const SAID: &str = "contact detection on a continuum robot";
 
 /// Shows the bar; `paper` is what of the paper was looked at last.
 pub fn views(ui: &mut Ui, rect: Rect, stage: Stage, paper: Stage, out: &mut Vec<Command>) {
-    let bar = vec2(rect.width().min(WIDTH), rect.height().min(HEIGHT));
+    let height = if rect.width() < WIDTH { TALL } else { HEIGHT };
+    let bar = vec2(rect.width().min(WIDTH), rect.height().min(height));
     let bar = Rect::from_min_size(rect.left_center() - vec2(0.0, 0.5 * bar.y), bar);
     let options =
         Section::ALL.map(|section| Segment { text: section.name(), name: section.name(), hint: section.summary() });

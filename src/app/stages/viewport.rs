@@ -8,13 +8,14 @@ use crate::app::command::Command;
 use crate::app::lesson::captions::Caption;
 use crate::app::panels::save;
 use crate::app::saving::Subject;
-use egui::{Align2, CursorIcon, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, EventFilter, Key, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
-use crate::scene::palette::Palette;
+use crate::scene::palette::{Palette, Shade};
 use crate::scene::{Camera, Scene, Studio};
 use crate::show::obstacle::only_touches;
 use crate::show::track::Trace;
@@ -24,6 +25,12 @@ use centrode_core::run::Run;
 
 /// The ring around a fresh detection runs for this long, s of the run.
 const PULSE: f64 = 0.9;
+
+/// What an arrow key turns or moves, as a drag of so many points; how far a key zooms, as a logarithm.
+const TURN: f32 = 20.0;
+const ZOOM: f32 = 0.15;
+/// What the keys do in the view.
+const KEYS: &str = "Arrows turn it, with Shift they move it, plus and minus zoom, Home shows it as at first";
 
 /// Room that the state chip takes at the top left: place and size, points.
 const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(212.0, 30.0));
@@ -43,6 +50,7 @@ pub struct ViewState {
     still: bool,
     /// What is said of it, see [`Captions`](crate::app::lesson::captions::Captions).
     pub captions: Vec<Caption>,
+    focused: bool,
 }
 
 /// All that the scene depends on.
@@ -50,7 +58,7 @@ pub struct ViewState {
 struct Shown {
     version: u64,
     time: f64,
-    dark: bool,
+    shade: Shade,
     frozen: bool,
     /// Mean and ends of the contact's place, m.
     placed: Option<[f64; 3]>,
@@ -71,7 +79,7 @@ impl ViewState {
     /// be `clear`. False where there is nothing to draw with.
     pub fn save(&mut self, name: String, clear: bool) -> bool {
         let (Some(gpu), Some((camera, size)), Some(shown)) = (&self.gpu, &self.seen, &self.shown) else { return false };
-        let mut studio = Palette::for_dark(shown.dark).studio;
+        let mut studio = Palette::of(shown.shade).studio;
         let mut scene = Arc::clone(&self.scene);
         if clear {
             (studio.inner, studio.outer) = (studio.inner.alpha(0.0), studio.outer.alpha(0.0));
@@ -93,6 +101,12 @@ impl ViewState {
         self.saved.is_some()
     }
 
+    /// Whether it has the keyboard.
+    #[must_use]
+    pub fn has_focus(&self) -> bool {
+        self.focused
+    }
+
     /// The picture asked for, once it is there, and the name of its file.
     pub fn saved(&mut self, ctx: &egui::Context) -> Option<(String, Result<Pixels, Lost>)> {
         let (gpu, (_, snapshot)) = (self.gpu.as_ref()?, self.saved.as_ref()?);
@@ -108,10 +122,10 @@ impl ViewState {
         if self.shown.as_ref() == Some(&shown) {
             return;
         }
-        let Shown { time, dark, frozen, .. } = shown;
+        let Shown { time, shade, frozen, .. } = shown;
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        let options = ViewOptions { palette: Palette::for_dark(dark), pulse, frozen, placed };
+        let options = ViewOptions { palette: Palette::of(shade), pulse, frozen, placed };
         self.scene = Arc::new(view(run, trace, time, &options));
         self.version += 1;
         self.shown = Some(shown);
@@ -138,14 +152,17 @@ pub fn viewport(
     }
     let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
+    ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(KEYS));
+    state.focused = response.has_focus();
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
+    let home_asked = steer_by_keys(ui, &response, &mut camera);
     let place = placed.map(|estimate| [estimate.place.mean, estimate.place.low, estimate.place.high]);
-    state.update(run, trace, placed, Shown { version, time: cursor, dark: theme.dark, frozen, placed: place });
+    state.update(run, trace, placed, Shown { version, time: cursor, shade: theme.shade, frozen, placed: place });
 
     let size = rect.size() * ui.pixels_per_point();
-    let studio = Palette::for_dark(theme.dark).studio;
+    let studio = Palette::of(theme.shade).studio;
     let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
@@ -164,7 +181,10 @@ pub fn viewport(
     notes::notes(ui, rect, &camera, (run, frozen), (&state.scene, &state.captions), taken);
     state.seen = Some((camera, rect.size()));
     save::menu(ui, file, Subject::View, out);
-    let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked() || response.double_clicked();
+    let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked()
+        || response.double_clicked()
+        || home_asked;
+    focus::ring(ui, rect.shrink(2.0), &response);
     // A camera is kept only when it was moved: until then it follows the robot's size.
     state.camera = (!reset && camera != home).then_some(camera);
 }
@@ -194,6 +214,30 @@ fn steer(ui: &Ui, response: &Response, rect: Rect, camera: &mut Camera) {
     } else if response.hovered() {
         ui.set_cursor_icon(CursorIcon::Grab);
     }
+}
+
+/// Moves the camera as the keys say while the view has the focus; returns whether they ask for the view as it was at first.
+fn steer_by_keys(ui: &Ui, response: &Response, camera: &mut Camera) -> bool {
+    if !response.has_focus() {
+        return false;
+    }
+    let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, filter));
+    let size = glam(response.rect.size());
+    ui.input(|input| {
+        let presses = |key| input.num_presses(key) as f32;
+        let along = |more, less| TURN * (presses(more) - presses(less));
+        let way = glam::vec2(along(Key::ArrowRight, Key::ArrowLeft), along(Key::ArrowDown, Key::ArrowUp));
+        if way != glam::Vec2::ZERO {
+            if input.modifiers.shift { camera.pan(way, size) } else { camera.orbit(way) }
+        }
+        let nearer = presses(Key::Plus) + presses(Key::Equals) + presses(Key::PageUp);
+        let zoom = nearer - presses(Key::Minus) - presses(Key::PageDown);
+        if zoom != 0.0 {
+            camera.zoom_at((ZOOM * zoom).exp(), 0.5 * size, size);
+        }
+        input.key_pressed(Key::Home) || input.key_pressed(Key::Num0)
+    })
 }
 
 fn glam(v: egui::Vec2) -> glam::Vec2 {

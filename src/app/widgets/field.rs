@@ -4,6 +4,7 @@ use egui::text::CCursorRange;
 use egui::{Align, Align2, Id, Key, Layout, Margin, Rect, Stroke, StrokeKind, TextEdit, Ui, UiBuilder, vec2};
 
 use crate::app::fonts;
+use crate::app::mirror;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 
@@ -17,6 +18,8 @@ pub struct Field<'a> {
     pub shown: &'a str,
     /// Its unit, dimmed; empty for none.
     pub unit: &'a str,
+    /// Whether a keyboard of digits will do: no sign, no words.
+    pub digits: bool,
     /// Whether what was typed last was refused.
     pub refused: bool,
 }
@@ -63,6 +66,9 @@ pub fn field(ui: &mut Ui, rect: Rect, field: &Field<'_>) -> Option<String> {
         .show(&mut child);
     let response = &output.response.response;
     ui.ctx().accesskit_node_builder(id, |node| node.set_label(field.label));
+    if field.digits {
+        mirror::mark_digits(ui, id);
+    }
 
     if response.gained_focus() {
         let mut state = output.state.clone();

@@ -33,6 +33,8 @@ pub enum Icon {
     Light,
     /// A moon.
     Dark,
+    /// A screen on its stand.
+    Projector,
     /// A question mark.
     Help,
     /// Two sliders.
@@ -91,7 +93,7 @@ pub fn button(ui: &mut Ui, rect: Rect, icon: Icon, label: &str, look: Look) -> R
 fn rect_key(icon: Icon) -> &'static str {
     match icon {
         Icon::Play | Icon::Pause => "play",
-        Icon::System | Icon::Light | Icon::Dark => "theme",
+        Icon::System | Icon::Light | Icon::Dark | Icon::Projector => "theme",
         Icon::StepBack => "back",
         Icon::StepForward => "forward",
         Icon::ToStart => "start",
@@ -165,6 +167,10 @@ pub fn paint(painter: &Painter, center: Pos2, scale: f32, icon: Icon, ink: Color
             let cover = p(2.9, -2.9);
             let points = arc(center, outer, 13.0, 257.0).chain(arc(cover, inner, 213.0, 57.0)).collect();
             painter.add(Shape::closed_line(points, stroke));
+        }
+        Icon::Projector => {
+            painter.add(Shape::closed_line(vec![p(-6.0, -5.0), p(6.0, -5.0), p(6.0, 3.0), p(-6.0, 3.0)], stroke));
+            painter.line(vec![p(-3.5, 6.5), p(0.0, 3.0), p(3.5, 6.5)], stroke);
         }
         Icon::Help => {
             painter.text(center, Align2::CENTER_CENTER, "?", fonts::strong(15.0 * scale), ink);

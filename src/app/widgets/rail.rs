@@ -62,6 +62,13 @@ impl Rail {
         };
         if further.is_nan() { low } else { further.clamp(low.min(high), high.max(low)) }
     }
+
+    /// The value this many tenths of the rail further, and at least as many steps.
+    #[must_use]
+    pub fn page(&self, value: f64, pages: f64) -> f64 {
+        let (step, page) = (self.step(value, pages.signum()), self.value(self.place(value) + 0.1 * pages));
+        if pages > 0.0 { page.max(step) } else { page.min(step) }
+    }
 }
 
 /// The multiple of `step` nearest to a value, without the dust of binary fractions.
@@ -98,10 +105,21 @@ mod tests {
     }
 
     #[test]
+    fn a_page_is_a_tenth_of_the_rail_and_at_least_a_step() {
+        let time = Rail { range: (0.0, 10.0), scale: Scale::Linear(0.01) };
+        assert_eq!((time.page(5.0, 1.0), time.page(5.0, -1.0), time.page(9.9, 2.0)), (6.0, 4.0, 10.0));
+        let disk = Rail { range: (0.0, 3.0), scale: Scale::Stops };
+        assert_eq!((disk.page(1.0, 1.0), disk.page(1.0, -1.0), disk.page(0.0, -1.0)), (2.0, 0.0, 0.0));
+        let filter = Rail { range: (1.0, 2000.0), scale: Scale::LogWhole };
+        assert_eq!((filter.page(100.0, 1.0), filter.page(1.0, 1.0)), (210.0, 2.0));
+    }
+
+    #[test]
     fn an_empty_rail_has_one_place() {
         for scale in [Scale::Linear(0.1), Scale::Stops, Scale::Log(0.001), Scale::LogWhole] {
             let rail = Rail { range: (0.0, 0.0), scale };
             assert!(rail.place(0.0).is_finite() && rail.value(0.5).is_finite(), "{scale:?}");
+            assert_eq!(rail.page(0.0, 1.0), 0.0, "{scale:?}");
         }
     }
 }

@@ -1,8 +1,9 @@
 //! A row of options of which one holds, or any.
 
-use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, UiBuilder, WidgetInfo, vec2};
 
 use crate::app::fonts;
+use crate::app::mirror;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 
@@ -75,14 +76,18 @@ fn parts(
     holds: impl Fn(usize) -> bool,
 ) -> Option<usize> {
     let theme = Theme::of(ui);
+    let ui = &mut ui.new_child(UiBuilder::new().id_salt(("segments", label)).max_rect(rect));
+    mirror::mark(ui, mirror::Part::Group, label);
     ui.painter().rect_filled(rect, 7.0, theme.raised);
     let width = rect.width() / options.len().max(1) as f32;
     let mut clicked = None;
     for (i, option) in options.iter().enumerate() {
-        let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height())).shrink(2.0);
+        let part = Rect::from_min_size(rect.min + vec2(width * i as f32, 0.0), vec2(width, rect.height()));
         let id = ui.make_persistent_id(("segment", label, i));
         let response = ui.interact(part, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
         let held = holds(i);
+        // All of it can be hit, to its edges.
+        let part = part.shrink(2.0);
         response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), held, option.name));
         if held {
             let fill = if theme.dark { theme.faint } else { theme.panel };

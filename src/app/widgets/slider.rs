@@ -52,7 +52,7 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
         let (left, right) = way(rect);
         asked = Some(slider.rail.value(f64::from((pointer.x - left) / (right - left).max(1.0))));
     }
-    let mut steps = 0.0;
+    let (mut steps, mut pages) = (0.0, 0.0);
     if response.has_focus() {
         let filter = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..Default::default() };
         ui.memory_mut(|memory| memory.set_focus_lock_filter(id, filter));
@@ -63,6 +63,7 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
                 * (presses(Key::ArrowRight) + presses(Key::ArrowUp)
                     - presses(Key::ArrowLeft)
                     - presses(Key::ArrowDown));
+            pages += presses(Key::PageUp) - presses(Key::PageDown);
         });
         if ui.input(|input| input.key_pressed(Key::Home)) {
             asked = Some(slider.rail.range.0);
@@ -84,6 +85,9 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
     });
     if steps != 0.0 {
         asked = Some(slider.rail.step(slider.value, steps));
+    }
+    if pages != 0.0 {
+        asked = Some(slider.rail.page(slider.value, pages));
     }
     describe(ui, &response, slider);
     let asked = asked.filter(|asked| asked.is_finite() && (asked.to_bits() != slider.value.to_bits() || !slider.on));
@@ -123,8 +127,10 @@ fn describe(ui: &Ui, response: &Response, slider: &Slider<'_>) {
     ui.ctx().accesskit_node_builder(response.id, |node| {
         node.set_min_numeric_value(slider.rail.range.0);
         node.set_max_numeric_value(slider.rail.range.1);
-        if let Scale::Linear(step) = slider.rail.scale {
-            node.set_numeric_value_step(step);
+        match slider.rail.scale {
+            Scale::Linear(step) => node.set_numeric_value_step(step),
+            Scale::Whole | Scale::Stops | Scale::LogWhole => node.set_numeric_value_step(1.0),
+            Scale::Log(_) => {}
         }
         node.set_value(slider.spoken);
         for action in [Action::SetValue, Action::Increment, Action::Decrement] {

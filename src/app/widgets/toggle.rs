@@ -11,7 +11,7 @@ pub fn toggle(ui: &mut Ui, rect: Rect, label: &str, on: bool) -> bool {
     response.widget_info(|| WidgetInfo::selected(Role::CheckBox, ui.is_enabled(), on, label));
     let along = ui.ctx().animate_bool(response.id, on);
     let track = Rect::from_center_size(rect.center(), egui::vec2(26.0, 14.0));
-    let fill = theme.faint.lerp_to_gamma(theme.accent, along);
+    let fill = theme.edge.lerp_to_gamma(theme.accent, along);
     ui.painter().rect_filled(track, 7.0, fill);
     let x = lerp(track.left() + 7.0..=track.right() - 7.0, along);
     let knob = if theme.dark { theme.ink } else { theme.panel };

@@ -1,12 +1,14 @@
 //! The help: what one sees, and which keys there are.
 
-use egui::{Id, Modal, RichText, ScrollArea, Ui, vec2};
+use egui::{Align, Id, Layout, Modal, RichText, ScrollArea, Ui, vec2};
 
 use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text::rich;
+use crate::app::widgets::toggle::toggle;
+use crate::app::words::keys;
 
 /// Titles and texts.
 pub const PARAGRAPHS: &[(&str, &str)] = &[
@@ -60,23 +62,11 @@ pub const PARAGRAPHS: &[(&str, &str)] = &[
 const THEORY: &str =
     "Every equation with the function that computes it, the misprints with their proof, and what limits detection";
 
-/// Keys and what they do.
-pub const KEYS: &[(&str, &str)] = &[
-    ("Space", "play or pause"),
-    ("← →", "step by 0.01 s"),
-    ("Shift ← →", "step by 0.1 s"),
-    ("Home, End", "go to the start or the end"),
-    ("A, B", "mark the time shown"),
-    ("Shift drag", "mark A and B on a plot"),
-    ("C", "copy what changes from A to B"),
-    ("Delete", "remove A and B"),
-    ("S", "save what is on the stage"),
-    ("Shift S", "save the plots or the run"),
-    ("Esc", "discard what is typed, or close this"),
-];
+/// What is heard.
+const SOUND: &str = "While the run plays, a tone rises with the centrode's deviation: an octave at its threshold. A strike tells an alarm.";
 
-/// Shows the help over the page.
-pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
+/// Shows the help over the page; opened by a key it takes the keyboard. `sound` says whether the run is heard.
+pub fn help(ui: &mut Ui, (sound, by_key): (bool, bool), out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let screen = ui.ctx().content_rect();
     let modal = Modal::new(Id::unique("help")).backdrop_color(egui::Color32::from_black_alpha(110));
@@ -84,16 +74,12 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
     let shown = modal.frame(frame).show(ui.ctx(), |ui| {
         ui.set_width((screen.width() - 72.0).min(560.0));
         let (bar, _) = ui.allocate_exact_size(vec2(ui.available_width(), 30.0), egui::Sense::hover());
-        crate::app::widgets::text::paint(
-            ui,
-            bar.left_center(),
-            egui::Align2::LEFT_CENTER,
-            "What this page shows",
-            fonts::strong(18.0),
-            theme.ink,
-        );
+        titled(ui, bar, "What this page shows", &theme);
         let corner = egui::Rect::from_center_size(bar.right_center() - vec2(15.0, 0.0), vec2(32.0, 32.0));
-        let closed = icon::button(ui, corner, Icon::Close, "Close help", Look::Plain).clicked();
+        let close = icon::button(ui, corner, Icon::Close, "Close help", Look::Plain);
+        if by_key {
+            close.request_focus();
+        }
         ui.add_space(6.0);
         ScrollArea::vertical().max_height(screen.height() - 140.0).min_scrolled_height(screen.height() - 140.0).show(
             ui,
@@ -101,30 +87,49 @@ pub fn help(ui: &mut Ui, out: &mut Vec<Command>) {
                 ui.set_width(ui.available_width() - 8.0);
                 ui.add_space(4.0);
                 let theory = egui::Button::new(RichText::new("Open the theory").font(fonts::strong(13.0)));
-                if ui.add(theory).on_hover_text(THEORY).clicked() {
-                    out.push(Command::Theory(None));
-                }
+                ui.horizontal(|ui| {
+                    if ui.add(theory).on_hover_text(THEORY).clicked() {
+                        out.push(Command::Theory(None));
+                    }
+                    let keys = egui::Button::new(RichText::new("Keys").font(fonts::strong(13.0)));
+                    if ui.add(keys).on_hover_text("All of them, also by the key ?").clicked() {
+                        out.push(Command::ToggleKeys);
+                    }
+                    let (place, _) = ui.allocate_exact_size(vec2(32.0, 28.0), egui::Sense::hover());
+                    if toggle(ui, place, "Sound", sound) {
+                        out.push(Command::ToggleSound);
+                    }
+                    ui.label("Sound").on_hover_text(SOUND);
+                });
                 for (title, body) in PARAGRAPHS {
                     ui.add_space(6.0);
-                    ui.label(RichText::new(*title).font(fonts::strong(13.5)).color(theme.ink));
+                    heading(ui, title, 13.5, &theme);
                     let mut text = rich(body, 13.5, theme.ink.lerp_to_gamma(theme.dim, 0.4));
                     text.sections.iter_mut().for_each(|section| section.format.line_height = Some(20.0));
                     ui.label(text);
                 }
                 ui.add_space(10.0);
-                ui.spacing_mut().interact_size.y = 0.0;
-                egui::Grid::new("keys").spacing(vec2(20.0, 6.0)).show(ui, |ui| {
-                    for (key, what) in KEYS {
-                        ui.label(RichText::new(*key).font(fonts::strong(13.0)).color(theme.ink));
-                        ui.label(RichText::new(*what).color(theme.dim));
-                        ui.end_row();
-                    }
-                });
+                keys::table(ui, &theme);
             },
         );
-        closed
+        close.clicked()
     });
     if shown.inner || shown.should_close() {
         out.push(Command::ToggleHelp);
     }
+}
+
+/// A title in the flow.
+pub(super) fn heading(ui: &mut Ui, title: &str, size: f32, theme: &Theme) {
+    let response = ui.label(RichText::new(title).font(fonts::strong(size)).color(theme.ink));
+    ui.ctx().accesskit_node_builder(response.id, |node| {
+        node.set_role(egui::Role::Heading);
+        node.set_label(title);
+    });
+}
+
+/// The title of a window, in its place.
+pub(super) fn titled(ui: &mut Ui, bar: egui::Rect, title: &str, theme: &Theme) {
+    let mut inside = ui.new_child(egui::UiBuilder::new().max_rect(bar).layout(Layout::left_to_right(Align::Center)));
+    heading(&mut inside, title, 18.0, theme);
 }

@@ -290,8 +290,64 @@ impl Page {
         self.key("Enter");
     }
 
+    /// The real element of this kind and name that stands for a widget, as JavaScript finds it; waits until it is there.
+    #[track_caller]
+    pub fn element(&mut self, kind: &str, name: &str) -> String {
+        let script = format!(
+            "[...document.querySelectorAll('#elements [data-kind={kind}]')].find((node) => \
+             (node.getAttribute('aria-label') ?? node.textContent) === {})",
+            json!(name)
+        );
+        self.wait(&format!("an element {kind} named {name:?}"), |page| {
+            (page.eval(&format!("Boolean({script})")) == true).then_some(())
+        });
+        format!("({script})")
+    }
+
+    /// The kind and the name of the element that has the keyboard; empty where none has.
+    pub fn focused(&mut self) -> (String, String) {
+        let found = self.eval(
+            "(({ dataset, ariaLabel, textContent }) => [dataset.kind ?? '', dataset.kind ? ariaLabel ?? textContent : ''])(document.activeElement)",
+        );
+        serde_json::from_value(found).unwrap_or_default()
+    }
+
+    /// Presses Tab, or Shift and Tab, until this element has the keyboard.
+    #[track_caller]
+    pub fn tab_to(&mut self, key: &str, kind: &str, name: &str) {
+        let mut seen = Vec::new();
+        for _ in 0..400 {
+            self.press(key);
+            let focused = self.focused();
+            if focused == (kind.to_owned(), name.to_owned()) {
+                return self.frames();
+            }
+            seen.push(focused);
+        }
+        panic!("Tab never comes to {kind} {name:?}, only to {seen:?}");
+    }
+
+    /// Types text into whatever has the keyboard.
+    pub fn insert(&mut self, text: &str) {
+        self.chromium.call("Input.insertText", json!({ "text": text }));
+        self.frames();
+    }
+
     /// Presses and releases a key, named as in JavaScript (`" "`, `ArrowRight`, `Home`, `a`).
+    ///
+    /// `Shift` before a name holds that key, too (`ShiftTab`).
     pub fn key(&mut self, key: &str) {
+        self.press(key);
+        if key.ends_with("Tab") {
+            self.frames();
+        }
+    }
+
+    /// The same, for what the browser does without a frame of the interface.
+    pub fn press(&mut self, key: &str) {
+        let shift = key.len() > 5 && key.starts_with("Shift");
+        let key = if shift { &key[5..] } else { key };
+        let modifiers = if shift { 8 } else { 0 };
         let text = match key {
             "Enter" => "\r",
             key if key.chars().count() == 1 => key,
@@ -305,15 +361,20 @@ impl Page {
             "Escape" => 27,
             "End" => 35,
             "Home" => 36,
+            "PageUp" => 33,
+            "PageDown" => 34,
+            "ArrowUp" => 38,
+            "ArrowDown" => 40,
             "ArrowLeft" => 37,
             "ArrowRight" => 39,
             key => key.to_ascii_uppercase().bytes().next().map_or(0, u32::from),
         };
         for (what, text) in [("keyDown", text), ("keyUp", "")] {
-            let event =
-                json!({ "type": what, "key": key, "code": code, "text": text, "windowsVirtualKeyCode": number });
+            let event = json!({ "type": what, "key": key, "code": code, "text": text, "windowsVirtualKeyCode": number, "modifiers": modifiers });
             self.chromium.call("Input.dispatchKeyEvent", event);
-            self.frames();
+            if key != "Tab" {
+                self.frames();
+            }
         }
     }
 

@@ -100,7 +100,12 @@ impl Frame {
             painter.galley(pos2(right - value.size().x, top + 1.0), value, self.theme.ink);
             if swatch > 0.0 {
                 let y = top + 9.0;
-                stroke_line(painter, vec![pos2(left, y), pos2(left + 14.0, y)], readout.color, readout.style);
+                stroke_line(
+                    painter,
+                    vec![pos2(left, y), pos2(left + 14.0, y)],
+                    (readout.color, self.theme.weight),
+                    readout.style,
+                );
             }
             painter.galley(pos2(left + swatch, top + 1.0), name, self.theme.dim);
             right = left - gap;
@@ -115,11 +120,11 @@ impl Frame {
 }
 
 /// Draws a line in a style.
-fn stroke_line(painter: &Painter, line: Vec<Pos2>, color: Color32, style: Style) {
+fn stroke_line(painter: &Painter, line: Vec<Pos2>, (color, weight): (Color32, f32), style: Style) {
     match style {
         Style::Dashed => painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, color), 4.0, 3.0)),
-        Style::Thin => drop(painter.line(line, Stroke::new(1.1, color))),
-        _ => drop(painter.line(line, Stroke::new(1.6, color))),
+        Style::Thin => drop(painter.line(line, Stroke::new(1.1 * weight, color))),
+        _ => drop(painter.line(line, Stroke::new(1.6 * weight, color))),
     }
 }
 

@@ -78,14 +78,14 @@ impl View<'_> {
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let x = self.frame.time.at(detection.time);
         let text = format!("detected {}", Frame::clock(detection.time));
-        let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL + 0.5), theme.detection);
+        let galley = painter.layout_no_wrap(text, FontId::proportional(SMALL + 0.5), theme.alarm);
         let right = x + 6.0 + galley.size().x <= data.right() + 4.0;
         let at = if right { x + 6.0 } else { x - 8.0 - galley.size().x };
         let armed = self.armed_label(painter, theme.dim).1.expand2(vec2(3.0, 1.0));
         let rect = Rect::from_min_size(pos2(at, data.top() + 11.0), galley.size());
         let rect = if says { above(rect, armed) } else { rect };
         painter.rect_filled(rect.expand2(vec2(3.0, 1.0)), 3.0, theme.panel.gamma_multiply(0.9));
-        painter.galley(rect.min, galley, theme.detection);
+        painter.galley(rect.min, galley, theme.alarm);
     }
 
     /// Says which event of a detector is under the pointer, and whether any is.
