@@ -42,7 +42,6 @@ use controls::Inputs;
 use embed::Embed;
 use helper::Helper;
 use helper::lent::Lent;
-use keys::Holder;
 use layout::Layout;
 use lesson::captions::{self, Captions};
 use lesson::{At, Lesson, Wish};
