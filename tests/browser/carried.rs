@@ -88,8 +88,10 @@ fn a_single_file_opens_from_a_disk() {
         page.eval("document.fonts.ready.then(fonts => [...fonts].some(font => font.status === 'loaded'))"),
         true
     );
-    let seen = page.eval("document.getElementById('eq-19').getBoundingClientRect().top");
-    assert!(seen.as_f64().is_some_and(|top| (-1.0..800.0).contains(&top)), "{seen}");
+    page.wait("the equation of the address", |page| {
+        let seen = page.eval("document.getElementById('eq-19').getBoundingClientRect().top");
+        seen.as_f64().is_some_and(|top| (-1.0..800.0).contains(&top)).then_some(())
+    });
     let links = page.eval("[...document.querySelectorAll('a')].map(a => a.href).filter(h => h.includes('#preset='))");
     let links: Vec<String> = serde_json::from_value(links).expect("links");
     assert!(links.len() > 5 && links.iter().all(|link| link.starts_with(&format!("{address}?#"))), "{links:?}");
