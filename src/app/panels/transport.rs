@@ -70,7 +70,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
     if icon::button(ui, corner, Icon::Loop, "Loop", look).clicked() {
         out.push(Command::ToggleLoop);
     }
-    let rail_width = if narrow { (right - left - 44.0).clamp(30.0, 110.0) } else { 92.0 };
+    let rail_width = if narrow { (right - left - 44.0).clamp(44.0, 110.0) } else { 92.0 };
     right -= if narrow { 2.0 } else { 8.0 };
     speed(ui, pos2(right, y), rail_width, size, state, out);
     right -= rail_width + 56.0;
