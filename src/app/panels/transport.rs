@@ -51,7 +51,7 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
     }
     let theme = Theme::of(ui);
     let clock = number(cursor, 3);
-    let at = pos2(x + if narrow { 4.0 } else { 12.0 }, y);
+    let at = pos2(x + if narrow { 2.0 } else { 12.0 }, y);
     let drawn = text::paint(ui, at, Align2::LEFT_CENTER, &clock, fonts::strong(14.5), theme.ink);
     let unit = text::paint(
         ui,
