@@ -80,8 +80,14 @@ fn the_age_of_the_contact_that_cusum_looks_for_follows_the_noise() {
 
 #[test]
 fn statistics_and_alarms_are_the_prototypes() {
-    for (part, free_bend) in [("d_nuisance", 0.0), ("d_free_bend", 2.0)] {
-        let model = model(1.0, free_bend);
+    // The first takes the robot for calibrated.
+    for (part, calibrated, free_bend) in
+        [("c_known", true, 0.0), ("d_nuisance", false, 0.0), ("d_free_bend", false, 2.0)]
+    {
+        let mut model = model(1.0, free_bend);
+        if calibrated {
+            model.belief.deviations.fill(0.0);
+        }
         let moments = moments(&model, true);
         for Golden { name, value, readings } in golden() {
             let mut listener = Listener::new(&model, cusum::age(&model, commands().into_iter()));

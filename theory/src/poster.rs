@@ -43,8 +43,7 @@ pub fn poster() -> Result<String> {
     }
     let [x, y] = beside(contact.arc_length, end + BEAM);
     write!(drawn, "<circle class=\"beam\" cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\"/>", BEAM * 1e3)?;
-    let [model, sensor] =
-        [&sample.judgement.model_centrode, &sample.judgement.sensor_centrode].map(|centrode| flat(centrode));
+    let [model, sensor] = [&sample.judgement.model_centrode, &sample.judgement.sensor_centrode].map(flat);
     write!(drawn, "<polyline class=\"deviation\" points=\"{}\"/>", listed([model, sensor].into_iter()))?;
     let [x, y] = model;
     write!(drawn, "<path class=\"model\" d=\"M{x:.2} {:.2}l1.2 2.1h-2.4z\"/>", y - 1.3)?;

@@ -31,15 +31,22 @@ pub(super) struct Flights {
     /// With the reading at which each began, the oldest first.
     flights: VecDeque<(usize, Flight<PLACES>)>,
     reading: usize,
+    /// The bend at which the robot rested when the last reading was taken, rad.
+    rested: Option<f64>,
 }
 
 impl Flights {
     pub(super) fn next(&mut self, stage: &Stage, length: f64, command: &Command) -> Bank {
-        let Self { flights, reading } = self;
+        let Self { flights, reading, rested } = self;
         let mut gone = 0;
         while flights.front().is_some_and(|(began, _)| began + WINDOW < *reading) {
             flights.pop_front();
             gone += 1;
+        }
+        // A contact may have begun as the motion did, at the last reading at rest.
+        let still = command.rate == 0.0;
+        if let Some(met) = std::mem::replace(rested, still.then_some(command.bend)).filter(|_| !still) {
+            flights.extend(Flight::begin(&Command { bend: met, ..*command }).map(|flight| (*reading - 1, flight)));
         }
         let places = places();
         let added = |(_, flight): &mut (usize, Flight<PLACES>)| {
