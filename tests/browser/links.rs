@@ -1,6 +1,7 @@
 //! The state in the address: opened, followed, gone back in, reloaded, and replayed by the command to the last bit.
 
 use crate::harness::{Options, Page, Renderer};
+use crate::saving::{LOOK, saved};
 use centrode_core::run::simulate;
 use centrode_core::scenario::link::Link;
 use serde_json::{Value, json};
@@ -130,12 +131,9 @@ fn a_dropped_scenario_is_opened_and_a_saved_one_is_handed_out() {
     page.click("Button", "Go on");
     wait_for_disk(&mut page, 3.0);
     // What is saved is looked at before it would become a download.
-    page.eval("window.saved = []; HTMLAnchorElement.prototype.click = function () { fetch(this.href).then((r) => r.text()).then((t) => saved.push(this.download, t)); }; 1");
-    page.click("Button", "Share");
-    page.wait("the menu", |page| page.widgets().into_iter().find(|widget| widget.label == "Save scenario"));
-    page.click("MenuItem", "Save scenario");
-    let saved = page.wait("a file", |page| Some(page.eval("saved")).filter(|saved| saved[1].is_string()));
-    assert!(saved[0].as_str().is_some_and(|name| name.starts_with("centrode-") && name.ends_with(".toml")), "{saved}");
-    assert!(saved[1].as_str().is_some_and(|text| text.contains("disk = 3")), "{saved}");
+    page.eval(LOOK);
+    let (name, text) = saved(&mut page, "Share", "Save scenario");
+    assert!(name.starts_with("centrode-") && name.ends_with(".toml"), "{name}");
+    assert!(String::from_utf8_lossy(&text).contains("disk = 3"), "{text:?}");
     assert_eq!(page.problems(), Vec::<String>::new());
 }

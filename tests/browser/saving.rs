@@ -5,12 +5,13 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use std::process::Command;
 
-/// Looks at what would become a download: its name, and its bytes in base64.
-pub const LOOK: &str = "window.saved = null; HTMLAnchorElement.prototype.click = async function () { \
-    const { download, href } = this; \
-    const bytes = new Uint8Array(await (await fetch(href)).arrayBuffer()); \
+/// Looks at what would become a download: its name, and its bytes in base64. The page's policy lets nobody fetch what was made of them.
+pub const LOOK: &str = "{ window.saved = null; const made = new Map(); const make = URL.createObjectURL; \
+    URL.createObjectURL = (blob) => { const url = make.call(URL, blob); made.set(url, blob); return url; }; \
+    HTMLAnchorElement.prototype.click = async function () { \
+    const bytes = new Uint8Array(await made.get(this.href).arrayBuffer()); \
     let text = ''; for (const byte of bytes) text += String.fromCharCode(byte); \
-    window.saved = [download, btoa(text)]; }; 1";
+    window.saved = [this.download, btoa(text)]; }; } 1";
 
 /// Hands no font on.
 const NO_FONTS: &str = "{ const Real = Blob; \

@@ -70,6 +70,7 @@ impl Kind {
             Self::Group if all(Self::Radio) => Self::Radios,
             Self::Group if all(Self::Tab) => Self::Tabs,
             Self::Group if any(Self::Item) && all(Self::Item) => Self::Menu,
+            Self::Group if any(Self::Choice) && all(Self::Choice) => Self::List,
             kind => kind,
         }
     }

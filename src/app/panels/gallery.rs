@@ -3,6 +3,7 @@
 use crate::app::charts::plane::thumb::Thumb;
 use crate::app::command::Command;
 use crate::app::fonts;
+use crate::app::mirror;
 use crate::app::panels::title::name;
 use crate::app::theme::Theme;
 use centrode_core::run::simulate;
@@ -82,21 +83,35 @@ impl Gallery {
             response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, *group));
             ui.painter().galley(rect.min + vec2(2.0, 0.0), heading, theme.dim);
             let presets: Vec<&'static Preset> = names.iter().filter_map(|name| preset::find(name).ok()).collect();
-            for row in presets.chunks(columns as usize) {
-                let texts: Vec<_> = row.iter().map(|preset| texts(ui, preset, each, &theme)).collect();
-                let high = texts.iter().map(|texts| texts[0].size().y + texts[1].size().y + 2.0);
-                let high = high.fold(PICTURE.y, f32::max) + 2.0 * PAD;
-                let (place, _) = ui.allocate_exact_size(vec2(width, high + GAP), Sense::hover());
-                for (k, (preset, texts)) in row.iter().zip(texts).enumerate() {
-                    let at = place.min + vec2(k as f32 * (each + GAP), 0.0);
-                    let rect = Rect::from_min_size(at, vec2(each, high));
-                    if self.item(ui, rect, (preset, preset.name == chosen.name), texts, &theme) {
-                        out.push(Command::Choose(preset));
-                    }
+            ui.push_id(group, |ui| {
+                mirror::mark(ui, mirror::Part::Group, group);
+                for row in presets.chunks(columns as usize) {
+                    self.row(ui, row, (each, chosen, &theme), out);
                 }
-            }
+            });
         }
         out.len() > before
+    }
+
+    /// Shows presets beside each other, each so wide.
+    fn row(
+        &self,
+        ui: &mut Ui,
+        row: &[&'static Preset],
+        (each, chosen, theme): (f32, &Preset, &Theme),
+        out: &mut Vec<Command>,
+    ) {
+        let texts: Vec<_> = row.iter().map(|preset| texts(ui, preset, each, theme)).collect();
+        let high = texts.iter().map(|texts| texts[0].size().y + texts[1].size().y + 2.0);
+        let high = high.fold(PICTURE.y, f32::max) + 2.0 * PAD;
+        let (place, _) = ui.allocate_exact_size(vec2(ui.available_width(), high + GAP), Sense::hover());
+        for (k, (preset, texts)) in row.iter().zip(texts).enumerate() {
+            let at = place.min + vec2(k as f32 * (each + GAP), 0.0);
+            let rect = Rect::from_min_size(at, vec2(each, high));
+            if self.item(ui, rect, (preset, preset.name == chosen.name), texts, theme) {
+                out.push(Command::Choose(preset));
+            }
+        }
     }
 
     fn item(

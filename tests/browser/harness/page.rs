@@ -196,6 +196,9 @@ impl Page {
     /// Answers every request for a file of this name with `status` from now on.
     pub fn block(&mut self, file: &str, status: u16) {
         self.chromium.block = Some(status);
+        // What keeps the page for when there is no network would hand out what it has.
+        self.chromium.call("Network.enable", json!({}));
+        self.chromium.call("Network.setBypassServiceWorker", json!({ "bypass": true }));
         self.chromium.call("Fetch.enable", json!({ "patterns": [{ "urlPattern": format!("*/{file}") }] }));
     }
 
