@@ -400,7 +400,7 @@ mod tests {
                 for (i, rect) in rects.iter().enumerate() {
                     assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
                     // The first three are bars.
-                    let least = if i < 3 { vec2(80.0, 36.0) } else { vec2(180.0, 40.0) };
+                    let least = if i < 3 { vec2(76.0, 36.0) } else { vec2(180.0, 40.0) };
                     assert!(rect.width() >= least.x && rect.height() >= least.y, "{width}×{height}: {rect:?}");
                     for other in &rects[..i] {
                         assert!(
