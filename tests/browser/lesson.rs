@@ -16,15 +16,6 @@ fn address(page: &mut Page) -> String {
     page.eval("location.href").as_str().unwrap_or_default().to_owned()
 }
 
-#[track_caller]
-fn reload(page: &mut Page) {
-    page.eval("window.before = true; setTimeout(() => location.reload(), 0); 1");
-    page.wait("the page anew", |page| {
-        (page.eval("typeof window.before") == "undefined" && page.data("ready").as_deref() == Some("true"))
-            .then_some(())
-    });
-}
-
 #[test]
 fn a_step_is_linked_to_noticed_and_kept_over_a_reload() {
     let mut page = Page::open(Renderer::WebGl, "?test#preset=disk-3&seed=7&tour=5", Options::default());
@@ -35,12 +26,12 @@ fn a_step_is_linked_to_noticed_and_kept_over_a_reload() {
     page.click("Button", "Next");
     wait_for(&mut page, "Step 6 of 10");
     page.wait("the step in the address", |page| address(page).ends_with("#preset=disk-3&seed=7&tour=6").then_some(()));
-    reload(&mut page);
+    page.reload();
     wait_for(&mut page, "Step 6 of 10");
     assert_eq!(page.eval("JSON.parse(localStorage['centrode.progress']).tour"), 6);
     page.click("Button", "Leave tour");
     page.wait("what was set", |page| (page.widget("Slider", "Seed").number == Some(7.0)).then_some(()));
-    reload(&mut page);
+    page.reload();
     page.click("Button", "Learn");
     wait_for(&mut page, "Resume step 6");
     assert_eq!(page.problems(), Vec::<String>::new());
@@ -72,7 +63,7 @@ fn a_browser_that_keeps_nothing_says_so_and_goes_on() {
     page.before_scripts(
         "Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('no', 'SecurityError'); } });",
     );
-    reload(&mut page);
+    page.reload();
     page.click("Button", "Learn");
     page.click("MenuItem", "Challenges");
     wait_for(&mut page, "Progress is not kept here.");

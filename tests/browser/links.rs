@@ -25,16 +25,6 @@ fn wait_for_disk(page: &mut Page, disk: f64) {
     });
 }
 
-/// Loads the page anew, as it is.
-#[track_caller]
-fn reload(page: &mut Page) {
-    page.eval("window.before = true; setTimeout(() => location.reload(), 0); 1");
-    page.wait("the page anew", |page| {
-        (page.eval("typeof window.before") == "undefined" && page.data("ready").as_deref() == Some("true"))
-            .then_some(())
-    });
-}
-
 /// What `centrode run --link` reports.
 fn replayed(link: &str) -> Value {
     let mut command = Command::new(env!("CARGO_BIN_EXE_centrode"));
@@ -71,7 +61,7 @@ fn a_link_opens_and_a_reload_restores() {
     page.type_number("Seed", "7");
     let link = wait_for_fragment(&mut page, "seed=7");
     let detected = page.number("detectionTime");
-    reload(&mut page);
+    page.reload();
     wait_for_disk(&mut page, 3.0);
     assert_eq!(fragment(&mut page), link);
     assert_eq!((page.number("time"), page.number("detectionTime")), (Some(6.27), detected));

@@ -142,6 +142,16 @@ impl Page {
         self.wait("the document", |page| (page.eval("document.readyState") == "complete").then_some(()));
     }
 
+    /// Loads the page anew, as it is, and waits until it runs.
+    #[track_caller]
+    pub fn reload(&mut self) {
+        self.eval("window.before = true; setTimeout(() => location.reload(), 0); 1");
+        self.wait("the page anew", |page| {
+            (page.eval("typeof window.before") == "undefined" && page.data("ready").as_deref() == Some("true"))
+                .then_some(())
+        });
+    }
+
     /// Gives the page another size, in CSS pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.options.size = size;
