@@ -16,6 +16,8 @@ mod gauss;
 pub mod joints;
 mod modes;
 mod newton;
+pub mod path;
+mod profile;
 mod search;
 mod shape;
 mod stability;

@@ -103,6 +103,20 @@ pub fn free(lengths: &[f64], configurations: &[Configuration]) -> Vec<Disk> {
         .collect()
 }
 
+/// The end disk of every segment of a chain that nothing touches, in {B}; one U for each rod.
+#[must_use]
+pub fn poses(rods: &[super::Rod], bends: &[Bends]) -> Vec<Pose> {
+    let mut at = Pose { position: Vec3::zeros(), rotation: Mat3::identity() };
+    let segments = rods.iter().zip(bends);
+    segments
+        .map(|(rod, bends)| {
+            let end = Arc { length: rod.length, configuration: super::configuration(bends) }.pose(rod.length);
+            at = Pose { position: at.position + at.rotation * end.position, rotation: at.rotation * end.rotation };
+            at
+        })
+        .collect()
+}
+
 /// Where a point of a free chain is, in {B}: on a segment (from 0) at an arc length from that segment's base (m).
 #[must_use]
 pub fn point(lengths: &[f64], configurations: &[Configuration], segment: usize, at: f64) -> Pose {

@@ -1,5 +1,6 @@
 //! Gauss nodes on a piece of the backbone, and the integral from the piece's start to each of them.
 
+use crate::model::Vec3;
 use crate::model::contact::ritz::{gauss, integrals, recurrence};
 
 /// Nodes ξ in [−1, 1]; integrals are over the piece's share in [0, 1].
@@ -29,16 +30,30 @@ impl Gauss {
             p
         };
         let legendre: Vec<Vec<f64>> = nodes.iter().map(rows).collect();
-        let until = nodes.iter().zip(&legendre).map(|(xi, p)| {
-            let integrals = integrals(*xi, p);
-            let row = legendre.iter().zip(&weights).map(|(at, weight)| {
-                let terms = at.iter().zip(&integrals).enumerate();
-                weight * terms.map(|(j, (p, whole))| (2.0 * j as f64 + 1.0) * p * whole).sum::<f64>()
-            });
-            row.collect()
+        let mut gauss = Self { modes, weights, legendre, until: Vec::new() };
+        gauss.until = nodes.iter().map(|xi| gauss.until_point(*xi)).collect();
+        gauss
+    }
+
+    /// The weights of the integral from the start to any ξ.
+    pub fn until_point(&self, xi: f64) -> Vec<f64> {
+        let mut p = vec![0.0; self.count() + 1];
+        recurrence(xi, &mut p);
+        let integrals = integrals(xi, &p);
+        let row = self.legendre.iter().zip(&self.weights).map(|(at, weight)| {
+            let terms = at.iter().zip(&integrals).enumerate();
+            weight * terms.map(|(j, (p, whole))| (2.0 * j as f64 + 1.0) * p * whole).sum::<f64>()
         });
-        let until = until.collect();
-        Self { modes, weights, legendre, until }
+        row.collect()
+    }
+
+    /// Factors of the Legendre polynomials up to `terms` of what has these values at the nodes.
+    pub fn series(&self, values: &[Vec3], terms: usize) -> Vec<Vec3> {
+        let factor = |j: usize| {
+            let each = values.iter().zip(&self.legendre).zip(&self.weights);
+            each.fold(Vec3::zeros(), |sum, ((value, p), weight)| sum + value * (p[j] * weight)) * (2.0 * j as f64 + 1.0)
+        };
+        (0..=terms).map(factor).collect()
     }
 
     pub fn count(&self) -> usize {

@@ -39,6 +39,16 @@ pub(super) struct Equilibrium {
     pub gradients: DMatrix<f64>,
 }
 
+/// The same for a start that is near, without derivatives by U.
+#[derive(Debug, Clone)]
+pub(super) struct Near {
+    pub at: Unknowns,
+    pub shape: Shape,
+    /// As of [`Equilibrium`], a small step before.
+    pub hessian: DMatrix<f64>,
+    pub gradients: DMatrix<f64>,
+}
+
 /// One linearisation.
 struct System {
     gradients: DMatrix<f64>,
@@ -67,14 +77,72 @@ pub(super) fn equilibrium(layout: &Layout, bends: &[f64], held: &[Held], start: 
     None
 }
 
+/// A step below this is rounding.
+const SETTLED: f64 = 1e-12;
+/// Systems are solved so often, each with so many steps at most, as long as each is this much smaller than that before.
+const CHORDS: (usize, usize, f64) = (12, 8, 0.2);
+
+/// From a start that is near: steps with the system of a shape before cost a fraction of one with its own.
+pub(super) fn nearby(layout: &Layout, bends: &[f64], held: &[Held], start: Unknowns) -> Option<Near> {
+    let (systems, chords, shrinks) = CHORDS;
+    let mut at = start;
+    for _ in 0..systems {
+        let system = System::new(layout, bends, held, &at)?;
+        let (mut residual, mut last) = (system.residual.clone(), f64::INFINITY);
+        for _ in 0..chords {
+            let step = system.lu.solve(&-residual)?;
+            let size = step.rows(0, layout.unknowns).amax();
+            if !size.is_finite() {
+                return None;
+            }
+            at.x += step.rows(0, layout.unknowns);
+            at.forces += step.rows(layout.unknowns, held.len());
+            let shape = shape(layout, &factors(&at.x, bends))?;
+            if size < SETTLED {
+                let gradients = system.gradients.columns(0, layout.unknowns).into_owned();
+                return Some(Near { at, shape, hessian: system.hessian(layout.unknowns), gradients });
+            }
+            if size > shrinks * last {
+                break;
+            }
+            last = size;
+            let variation = Variation::new(layout, &shape);
+            residual = residual_of(held, &at, &gradients(layout, &variation, held), &shape);
+        }
+    }
+    None
+}
+
+/// First derivatives of n·p of each contact held, by all terms.
+fn gradients(layout: &Layout, variation: &Variation, held: &[Held]) -> DMatrix<f64> {
+    let along = |c: usize, i| variation.motion(i, held[c].piece).linear.dot(&held[c].normal);
+    DMatrix::from_fn(held.len(), layout.modes.len(), along)
+}
+
+/// What is left of balance and of contact.
+fn residual_of(held: &[Held], at: &Unknowns, gradients: &DMatrix<f64>, shape: &Shape) -> DVector<f64> {
+    let unknowns = at.x.len();
+    let mut residual = DVector::zeros(unknowns + held.len());
+    let by_x = gradients.columns(0, unknowns);
+    residual.rows_mut(0, unknowns).copy_from(&(&at.x + by_x.transpose() * &at.forces));
+    for (c, held) in held.iter().enumerate() {
+        residual[unknowns + c] = held.normal.dot(&shape.ends[held.piece].position) - held.offset;
+    }
+    residual
+}
+
 impl System {
+    fn hessian(&self, unknowns: usize) -> DMatrix<f64> {
+        let mut hessian = self.second.columns(0, unknowns).into_owned();
+        (0..unknowns).for_each(|i| hessian[(i, i)] += 1.0);
+        hessian
+    }
+
     fn new(layout: &Layout, bends: &[f64], held: &[Held], at: &Unknowns) -> Option<Self> {
         let unknowns = layout.unknowns;
         let shape = shape(layout, &factors(&at.x, bends))?;
         let variation = Variation::new(layout, &shape);
-        let modes = layout.modes.len();
-        let gradients =
-            DMatrix::from_fn(held.len(), modes, |c, i| variation.motion(i, held[c].piece).linear.dot(&held[c].normal));
+        let gradients = gradients(layout, &variation, held);
         let push = |(held, force): (&Held, &f64)| Push { piece: held.piece, normal: held.normal, force: *force };
         let pushes: Vec<Push> = held.iter().zip(at.forces.iter()).map(push).collect();
         let second = variation.second(&pushes);
@@ -84,11 +152,7 @@ impl System {
         (0..unknowns).for_each(|i| matrix[(i, i)] += 1.0);
         matrix.view_mut((unknowns, 0), (held.len(), unknowns)).copy_from(&by_x);
         matrix.view_mut((0, unknowns), (unknowns, held.len())).copy_from(&by_x.transpose());
-        let mut residual = DVector::zeros(unknowns + held.len());
-        residual.rows_mut(0, unknowns).copy_from(&(&at.x + by_x.transpose() * &at.forces));
-        for (c, held) in held.iter().enumerate() {
-            residual[unknowns + c] = held.normal.dot(&shape.ends[held.piece].position) - held.offset;
-        }
+        let residual = residual_of(held, at, &gradients, &shape);
         Some(Self { gradients, second, residual, lu: matrix.lu() })
     }
 
@@ -99,8 +163,7 @@ impl System {
         right.rows_mut(0, unknowns).copy_from(&-self.second.columns(unknowns, columns));
         right.rows_mut(unknowns, at.forces.len()).copy_from(&-self.gradients.columns(unknowns, columns));
         let by_bends = self.lu.solve(&right)?;
-        let mut hessian = self.second.columns(0, unknowns).into_owned();
-        (0..unknowns).for_each(|i| hessian[(i, i)] += 1.0);
+        let hessian = self.hessian(unknowns);
         let shape = shape(layout, &factors(&at.x, bends))?;
         Some(Equilibrium { at, shape, by_bends, hessian, gradients: self.gradients })
     }

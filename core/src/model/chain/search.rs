@@ -11,13 +11,13 @@ use nalgebra::{DMatrix, DVector};
 use std::collections::BTreeSet;
 
 /// Highest Legendre terms, tried in turn.
-const TERMS: [usize; 5] = [8, 12, 18, 26, 36];
+pub(super) const TERMS: [usize; 5] = [8, 12, 18, 26, 36];
 /// The highest term may bend a piece by so much, rad: far less moves by what is left out.
 const TAIL: f64 = 1e-10;
 /// One more step of terms may change the stability margin by so much.
 const MARGIN: f64 = 1e-10;
 /// A margin this small is none: rounding may have made it.
-const LEAST_MARGIN: f64 = 1e-9;
+pub(super) const LEAST_MARGIN: f64 = 1e-9;
 /// The first and longest step of a way, and the shortest, as shares of it.
 const STEPS: (f64, f64) = (0.25, 1e-3);
 /// A step in which the shape goes off further than this from where it was bound for, over its own size, may have left its
@@ -216,7 +216,13 @@ impl Search<'_> {
                     active.insert(row, place);
                     at = Unknowns { forces: found.at.forces.clone().insert_row(row, 0.0), ..found.at };
                 }
-                _ => return Some(Pressed { margin: margin(&found), active, equilibrium: found }),
+                _ => {
+                    return Some(Pressed {
+                        margin: margin(&found.hessian, &found.gradients),
+                        active,
+                        equilibrium: found,
+                    });
+                }
             }
         }
         None

@@ -48,8 +48,17 @@ pub(super) fn shape(layout: &Layout, factors: &[f64]) -> Option<Shape> {
     Some(shape)
 }
 
+/// The end of a piece of this length whose curvature at the nodes is given. `None` where it turns too far.
+pub(super) fn advance(gauss: &super::gauss::Gauss, base: &Pose, length: f64, curvatures: &[Vec3]) -> Option<Pose> {
+    let steps: Vec<Vec3> = curvatures.iter().map(|u| u * length).collect();
+    let (vectors, end) = rotation_vectors(gauss, &steps)?;
+    let tangents: Vec<Vec3> =
+        vectors.iter().map(|vector| (base.rotation * exponential(vector)).column(2) * length).collect();
+    Some(Pose { position: base.position + sum(&gauss.weights, &tangents), rotation: base.rotation * exponential(&end) })
+}
+
 /// Curvature at each node, in the frame of its cross section.
-fn curvatures(layout: &Layout, factors: &[f64]) -> Vec<Vec3> {
+pub(super) fn curvatures(layout: &Layout, factors: &[f64]) -> Vec<Vec3> {
     let count = layout.gauss.count();
     let mut all = vec![Vec3::zeros(); count * layout.pieces.len()];
     for (mode, factor) in layout.modes.iter().zip(factors) {

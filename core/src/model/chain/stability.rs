@@ -1,6 +1,5 @@
 //! Whether energy grows in every direction that the contacts allow.
 
-use super::newton::Equilibrium;
 use nalgebra::linalg::SymmetricTridiagonal;
 use nalgebra::{DMatrix, DVector};
 
@@ -9,10 +8,23 @@ use nalgebra::{DMatrix, DVector};
 /// changes of shape, with ever shorter waves, on which the forces do nothing.
 ///
 /// The terms of the curvature are such that elastic energy alone has the identity for its second derivative.
-pub(super) fn margin(found: &Equilibrium) -> f64 {
-    let unknowns = found.hessian.nrows();
+/// `hessian` is that of energy and contacts, `gradients` has those of each contact held in its rows.
+pub(super) fn margin(hessian: &DMatrix<f64>, gradients: &DMatrix<f64>) -> f64 {
+    1.0 + lowest(within(hessian, gradients))
+}
+
+/// Whether the margin is above this, at a fraction of its price.
+pub(super) fn is_stable(hessian: &DMatrix<f64>, gradients: &DMatrix<f64>, least: f64) -> bool {
+    let mut matrix = within(hessian, gradients);
+    (0..matrix.nrows()).for_each(|i| matrix[(i, i)] += 1.0 - least);
+    matrix.cholesky().is_some()
+}
+
+/// The second derivatives less those of the elastic energy alone, within the changes of shape that keep the contacts.
+fn within(hessian: &DMatrix<f64>, gradients: &DMatrix<f64>) -> DMatrix<f64> {
+    let unknowns = hessian.nrows();
     let mut normals: Vec<DVector<f64>> = Vec::new();
-    for row in found.gradients.row_iter() {
+    for row in gradients.row_iter() {
         let mut normal = row.columns(0, unknowns).transpose();
         let size = normal.norm();
         // Twice: what rounding leaves after the first is gone after the second.
@@ -23,11 +35,11 @@ pub(super) fn margin(found: &Equilibrium) -> f64 {
             normals.push(normal.normalize());
         }
     }
-    // Directions across a contact held get the value 1, which is no less than the answer.
-    let mut matrix = found.hessian.clone();
+    // Directions across a contact held get the value 0, which is no less than the answer.
+    let mut matrix = hessian.clone();
     (0..unknowns).for_each(|i| matrix[(i, i)] -= 1.0);
     normals.iter().for_each(|normal| project(&mut matrix, normal));
-    1.0 + lowest(matrix)
+    matrix
 }
 
 /// P M P with P = 1 − n nᵀ.
