@@ -25,6 +25,8 @@ pub struct Entry {
     pub configuration: Configuration,
     /// Commanded θ̇L, rad/s.
     pub theta_l_rate: f64,
+    /// Commanded δ̇, rad/s; 0 in a bending plane that stays.
+    pub delta_rate: f64,
     /// The tracker's reading, as held.
     pub reading: Reading,
     /// Load cell readings τ_lc, N. NaN where the statics are not defined.
@@ -174,7 +176,8 @@ impl Iterator for Recorder<'_> {
         let plant = &self.plant;
         let reading = self.tracker.read(time, |taken| plant.shape(plant.command(taken).0).tip_pose());
         let tau_lc = self.cells.read(&truth.tau);
-        Some((Entry { time, configuration, theta_l_rate, reading, tau_lc }, truth))
+        let entry = Entry { time, configuration, theta_l_rate, delta_rate: 0.0, reading, tau_lc };
+        Some((entry, truth))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

@@ -18,7 +18,7 @@ pub mod refusal;
 pub mod text;
 pub mod true_robot;
 
-pub use chain::{ChainError, ChainSetup};
+pub use chain::{ChainError, ChainPlan, ChainScenario, ChainSetup};
 pub use inputs::*;
 pub use overrides::Override;
 pub use plan::Plan;

@@ -62,7 +62,7 @@ mod tests {
         let (low, high) = (mean - 1.96 * deviation, mean + 1.96 * deviation);
         let place = Place { mean, mode: mean, low, high };
         let calibration = [[0.0; STATES]; 2];
-        Estimate { place, began: 0.0, kinds: Vec::new(), calibration, posterior, evidence: 10.0 }
+        Estimate { place, began: 0.0, kinds: Vec::new(), calibration, posterior, evidence: 10.0, ratio: 8.0 }
     }
 
     #[test]

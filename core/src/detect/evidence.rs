@@ -37,6 +37,8 @@ pub struct Judgement {
     /// ‖c_m − c_s‖ with the centrode of the commanded pose that is sampled, delayed and averaged as the tracker's readings are, m;
     /// not defined while ω_s = 0, before the average is whole, nor where its detector is switched off.
     pub consistent: f64,
+    /// Angle between the instantaneous screw axes of which these are the centrodes, rad; likewise.
+    pub turned: f64,
     /// ‖ω_s‖·‖c_m − c_s‖, m/s; 0 while ω_s = 0, and not defined before the average is whole.
     pub velocity: f64,
     /// The cumulative sum of the log likelihood ratio of a contact, natural logarithm, 0 or more; not defined where its detector is
@@ -58,6 +60,7 @@ impl Judgement {
         independent_bound: f64::NAN,
         shape_bound: f64::NAN,
         consistent: f64::NAN,
+        turned: f64::NAN,
         velocity: f64::NAN,
         cusum: f64::NAN,
         glr: f64::NAN,
@@ -102,9 +105,15 @@ impl Expectation {
     /// Of a segment, whose load cells may err by a share `epsilon_tau`.
     #[must_use]
     pub fn new(segment: &Segment, configuration: Configuration, epsilon_tau: f64) -> Self {
+        Self::moving(segment, configuration, Rate::BENDING, epsilon_tau)
+    }
+
+    /// The same for a motion in which δ changes as well.
+    #[must_use]
+    pub fn moving(segment: &Segment, configuration: Configuration, rate: Rate, epsilon_tau: f64) -> Self {
         let (pose, jacobian) = segment.arc(configuration).pose_and_jacobian(segment.length);
         Self {
-            centrode: jacobian.centrode(&pose.position, Rate::BENDING).unwrap_or(UNDEFINED),
+            centrode: jacobian.centrode(&pose.position, rate).unwrap_or(UNDEFINED),
             gradient: segment.energy_gradient(&configuration),
             shape_bound: segment.shape_bound(&configuration, epsilon_tau + ROUNDING),
         }
@@ -124,6 +133,12 @@ const UNDEFINED: Vec3 = Vec3::new(f64::NAN, f64::NAN, f64::NAN);
 pub fn deviation(model_centrode: &Vec3, motion: &FilteredMotion) -> (Vec3, f64) {
     let sensor_centrode = centrode(&motion.position, &motion.twist).unwrap_or(UNDEFINED);
     (sensor_centrode, (model_centrode - sensor_centrode).norm())
+}
+
+/// Angle between two axes of rotation, rad; NaN where one of them is none.
+fn angle_between(a: &Vec3, b: &Vec3) -> f64 {
+    let none = a.norm() == 0.0 || b.norm() == 0.0;
+    if none { f64::NAN } else { libm::atan2(a.cross(b).norm(), a.dot(b)) }
 }
 
 /// A moving average that begins anew after a gap.
@@ -209,7 +224,11 @@ impl Observer {
     pub fn observe(&mut self, entry: &Entry) -> Evidence {
         let Entry { configuration, reading, tau_lc, .. } = entry;
         let motion = self.sensor.motion(reading);
-        let expected = Expectation::new(&self.segment, *configuration, self.epsilon_tau);
+        let rate = match entry.delta_rate {
+            0.0 => Rate::BENDING,
+            delta => Rate { theta_l: entry.theta_l_rate, delta },
+        };
+        let expected = Expectation::moving(&self.segment, *configuration, rate, self.epsilon_tau);
         if let Some(new) = self.nominal.as_mut().and_then(|nominal| nominal.take(entry)) {
             self.renew(&new, entry);
         }
@@ -218,9 +237,10 @@ impl Observer {
         let speed = motion.twist.angular.norm();
         // Noise in an average of a few readings would raise alarms of detectors that do not wait.
         let whole = self.sensor.is_whole();
-        let consistent = self.consistent.as_mut().map_or(f64::NAN, |(reading, average)| {
+        let (consistent, turned) = self.consistent.as_mut().map_or((f64::NAN, f64::NAN), |(reading, average)| {
             let model = average.motion(reading);
-            centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm())
+            let apart = centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm());
+            (apart, angle_between(&model.twist.angular, &motion.twist.angular))
         });
         let judgement = Judgement {
             model_centrode: expected.centrode,
@@ -232,6 +252,7 @@ impl Observer {
             independent_bound: segment.independent_error_bound(configuration, tau_lc, epsilon_tau),
             shape_bound: expected.shape_bound,
             consistent: if whole { consistent } else { f64::NAN },
+            turned: if whole { turned } else { f64::NAN },
             velocity: match whole {
                 false => f64::NAN,
                 true if speed == 0.0 => 0.0,

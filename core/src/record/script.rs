@@ -87,7 +87,7 @@ impl Script {
         let mut cells = SimulatedCells::new(plan);
         self.steps.iter().zip(self.readings(plan)).map(move |(step, reading)| {
             let Step { time, configuration, theta_l_rate, tau, .. } = *step;
-            Entry { time, configuration, theta_l_rate, reading, tau_lc: cells.read(&tau) }
+            Entry { time, configuration, theta_l_rate, delta_rate: 0.0, reading, tau_lc: cells.read(&tau) }
         })
     }
 }

@@ -1,6 +1,9 @@
-//! One configuration of a chain, as `centrode model --chain` reads it (docs/CHAIN.md).
+//! Segments in series (docs/CHAIN.md): one configuration of them, as `centrode model --chain` reads it, and whole experiments.
 
 mod group;
+mod inputs;
+mod plan;
+mod read;
 
 use crate::model::Configuration;
 use crate::model::chain::{Contact, Rod, Settled, Torsion, Unsettled, settle, stiffnesses};
@@ -14,8 +17,10 @@ use group::Group;
 use std::f64::consts::TAU;
 use std::fmt;
 use thiserror::Error;
-use toml::Table;
 use toml::de::DeTable;
+
+pub use inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Stands, Tracked};
+pub use plan::ChainPlan;
 
 /// A chain with the configuration of each segment and what it meets: what follows can be solved or has no stable shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,14 +115,8 @@ impl ChainSetup {
     /// # Errors
     /// The first thing that is wrong, with its line and key and what is allowed.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ChainError> {
-        let whole = |error| ChainError { line: None, fault: Fault::Scenario(error) };
-        let text = std::str::from_utf8(bytes)
-            .map_err(|error| whole(ScenarioError::NotText { offset: error.valid_up_to() }))?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let table = text.parse::<Table>().map_err(|error| {
-            let line = error.span().map_or(1, |span| group::line(text, span.start));
-            whole(ScenarioError::Syntax { line, message: error.message().replace('\n', " ") })
-        })?;
+        let text = group::text(bytes)?;
+        let table = group::parsed(text)?;
         let spans = DeTable::parse(text).ok();
         let top = Group::top(text, &table, spans.as_ref().map(|spans| spans.get_ref()));
         top.knows(&["segment", "contact"])?;

@@ -54,12 +54,7 @@ impl Draft {
             line: error.span().map_or(1, |span| 1 + text[..span.start.min(text.len())].matches('\n').count()),
             message: error.message().replace('\n', " "),
         })?;
-        let (mut scenario, mut values) = (Scenario::default(), Vec::new());
-        read_group(&mut values, "", &table)?;
-        for (key, value) in values {
-            key.set(&mut scenario, value)?;
-        }
-        Ok(Self { scenario })
+        Ok(Self { scenario: read_table(&table)? })
     }
 
     /// Overrides one key with `key=value`; the value is TOML, or a bare word.
@@ -80,6 +75,16 @@ impl Draft {
         KEYS.iter().try_for_each(|key| key.check(&self.scenario))?;
         Ok(self.scenario)
     }
+}
+
+/// A scenario as a table has it, unchecked; missing keys have their defaults.
+pub(super) fn read_table(table: &Table) -> Result<Scenario, ScenarioError> {
+    let (mut scenario, mut values) = (Scenario::default(), Vec::new());
+    read_group(&mut values, "", table)?;
+    for (key, value) in values {
+        key.set(&mut scenario, value)?;
+    }
+    Ok(scenario)
 }
 
 /// Reads what stands at a path: the values that it gives keys, in order.

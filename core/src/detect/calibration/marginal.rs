@@ -66,6 +66,9 @@ pub struct Estimate {
     pub posterior: Vec<[f64; 2]>,
     /// The largest log likelihood ratio against no contact.
     pub evidence: f64,
+    /// Logarithm of the probability of the readings with a contact, over that without: every kind, place and beginning that was thought of
+    /// as likely as the others.
+    pub ratio: f64,
 }
 
 /// What is asked of the readings.
@@ -73,6 +76,8 @@ pub struct Estimate {
 pub struct Question<'a> {
     /// The first reading that is tried as the beginning.
     pub first: usize,
+    /// The last one, if readings go so far.
+    pub latest: usize,
     /// The kinds of contact that are thought possible, each as likely as the others beforehand.
     pub kinds: &'a [Kind],
     /// Beginnings that are tried between one reading and the next.
@@ -114,7 +119,8 @@ fn beginning(history: &History, heard: &[Six], question: &Question) -> Option<us
         let side = moments[began].command.rate.signum();
         Row::new(&shapes, stages, heard, &bends, (began, 0.0), side).most(&grid)
     };
-    let moving: Vec<usize> = (question.first..last).filter(|&began| moments[began].command.rate != 0.0).collect();
+    let tried = question.first..last.min(question.latest.saturating_add(1));
+    let moving: Vec<usize> = tried.filter(|&began| moments[began].command.rate != 0.0).collect();
     let best = |tried: &mut dyn Iterator<Item = usize>| {
         tried.map(|at| (at, most(moving[at]))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
     };
@@ -221,7 +227,8 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
     let first = question.first;
-    let moving: Vec<usize> = (first..last).filter(|&k| moments[k].command.rate != 0.0).collect();
+    let tried = first..last.min(question.latest.saturating_add(1));
+    let moving: Vec<usize> = tried.filter(|&k| moments[k].command.rate != 0.0).collect();
     let side = moments[began].command.rate.signum();
     let all = kinds.iter().map(|&kind| {
         let shapes = match kind {
@@ -235,7 +242,7 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let all: Vec<Tried> = all.collect();
     let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
     let commands: Vec<Command> = moments.iter().map(|moment| moment.command).collect();
-    weigh(&all, length, &commands, [errors, deviations])
+    weigh(&all, length, &commands, moving.len(), [errors, deviations])
 }
 
 /// The beginnings that count, and how many of them there are to a reading, at most `parts`.
@@ -331,7 +338,14 @@ impl Sum {
 }
 
 /// Adds the rows up, as densely as their sum is narrow.
-fn weigh(all: &[Tried], length: f64, commands: &[Command], calibration: [[f64; STATES]; 2]) -> Option<Estimate> {
+/// `beginnings` is how many readings were thought of.
+fn weigh(
+    all: &[Tried],
+    length: f64,
+    commands: &[Command],
+    beginnings: usize,
+    calibration: [[f64; STATES]; 2],
+) -> Option<Estimate> {
     let mut sum = Sum::of(all, commands, Grid::fine())?;
     for _ in 0..DENSER {
         let Some(grid) = sum.denser() else { break };
@@ -343,7 +357,9 @@ fn weigh(all: &[Tried], length: f64, commands: &[Command], calibration: [[f64; S
     let place = Place::of(&grid, &density, length);
     let posterior =
         places.iter().zip(&density).map(|(place, here)| [place * length, here / (total * spacing * length)]);
-    Some(Estimate { place, began: began / total, kinds, calibration, posterior: posterior.collect(), evidence: best })
+    let ratio = best + libm::log(total * spacing / (beginnings * all.len()) as f64);
+    let (began, posterior) = (began / total, posterior.collect());
+    Some(Estimate { place, began, kinds, calibration, posterior, evidence: best, ratio })
 }
 
 impl Place {

@@ -154,7 +154,8 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
         }
         let theta_l_rate = if source == Commands::Motion { command(&scenario.motion, time).1 } else { f64::NAN };
         let tau_lc = Vec3::from(force.at(at));
-        entries.push(Entry { time, configuration: plane.with_bend(bend), theta_l_rate, reading, tau_lc });
+        let configuration = plane.with_bend(bend);
+        entries.push(Entry { time, configuration, theta_l_rate, delta_rate: 0.0, reading, tau_lc });
     }
     if source != Commands::Motion {
         difference(&mut entries);

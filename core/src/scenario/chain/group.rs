@@ -23,6 +23,25 @@ pub(super) fn line(text: &str, place: usize) -> usize {
     1 + text.bytes().take(place).filter(|byte| *byte == b'\n').count()
 }
 
+/// The text of a file.
+pub(super) fn text(bytes: &[u8]) -> Result<&str, ChainError> {
+    let text = std::str::from_utf8(bytes).map_err(|error| whole(ScenarioError::NotText { offset: error.valid_up_to() }))?;
+    Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
+}
+
+/// Its tables.
+pub(super) fn parsed(text: &str) -> Result<Table, ChainError> {
+    text.parse::<Table>().map_err(|error| {
+        let line = error.span().map_or(1, |span| line(text, span.start));
+        whole(ScenarioError::Syntax { line, message: error.message().replace('\n', " ") })
+    })
+}
+
+/// A fault of the text as a whole.
+pub(super) fn whole(error: ScenarioError) -> ChainError {
+    ChainError { line: None, fault: Fault::Scenario(error) }
+}
+
 /// A number, whole or not.
 pub(super) fn float(value: &toml::Value) -> Option<f64> {
     match value {
@@ -46,7 +65,7 @@ impl<'a> Group<'a> {
         self.table.get(key)
     }
 
-    fn key(&self, key: &str) -> String {
+    pub fn key(&self, key: &str) -> String {
         if self.path.is_empty() { key.into() } else { format!("{}.{key}", self.path) }
     }
 
@@ -55,7 +74,14 @@ impl<'a> Group<'a> {
         place.or(self.start).map(|place| line(self.text, place))
     }
 
-    fn at(&self, key: &str, error: ScenarioError) -> ChainError {
+    /// The line of a key of a group, where it is in the text.
+    pub fn line_of(&self, [group, key]: [&str; 2]) -> Option<usize> {
+        let inner = self.spans?.get(group)?.get_ref();
+        Some(line(self.text, inner.as_table()?.get_key_value(key)?.0.span().start))
+    }
+
+    /// An error at a key.
+    pub fn at(&self, key: &str, error: ScenarioError) -> ChainError {
         let place = self.spans.and_then(|spans| Some(spans.get_key_value(key)?.0.span().start));
         ChainError { line: self.line(place), fault: Fault::Scenario(error) }
     }

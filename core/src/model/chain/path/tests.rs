@@ -1,6 +1,5 @@
 use super::*;
 use crate::model::chain::{Contact, Torsion, configuration, settle};
-use crate::scenario::motion::from_rest_to_rest;
 
 /// The robot of Figure 1: 30 mm each, EI as 3 : 2 : 1.
 fn robot(torsion: Torsion) -> Vec<Rod> {
@@ -8,10 +7,16 @@ fn robot(torsion: Torsion) -> Vec<Rod> {
     [3.0, 2.0, 1.0].map(rod).to_vec()
 }
 
+/// From one value to another between two instants (s), at rest before and after.
+fn rest_to_rest(from: f64, to: f64, start: f64, finish: f64, time: f64) -> f64 {
+    let u = ((time - start) / (finish - start)).clamp(0.0, 1.0);
+    from + (to - from) * u * u * u * (10.0 + u * (6.0 * u - 15.0))
+}
+
 /// From one bend of every segment to another, at rest before second 1 and after second 6.
 fn course(from: [(f64, f64); 3], to: [(f64, f64); 3]) -> impl Fn(f64) -> Vec<Bends> {
     move |time| {
-        let share = from_rest_to_rest(0.0, 1.0, 1.0, 6.0, time).0;
+        let share = rest_to_rest(0.0, 1.0, 1.0, 6.0, time);
         let each = from.iter().zip(to).map(|(from, to)| {
             let (bend, delta) = (from.0 + share * (to.0 - from.0), from.1 + share * (to.1 - from.1));
             Bends::new(bend * libm::sin(delta), bend * libm::cos(delta))
@@ -118,7 +123,7 @@ fn a_contact_far_out_opens_one_below() {
     let rods = robot(Torsion::Ratio(5.0));
     // Segment 3 meets a plane while segment 1 presses on one, and carries it off.
     let course = |time: f64| {
-        let share = |start: f64| from_rest_to_rest(0.0, 1.0, start, start + 3.0, time).0;
+        let share = |start: f64| rest_to_rest(0.0, 1.0, start, start + 3.0, time);
         vec![Bends::new(0.0, 0.3 * share(0.0)), Bends::new(0.0, 0.0), Bends::new(0.0, 0.9 * share(3.0))]
     };
     let knots = [0.0, 3.0, 6.0, 7.0];
@@ -133,7 +138,7 @@ fn a_contact_far_out_opens_one_below() {
 fn a_plane_that_stands_from_the_start_is_met_and_left_as_the_chain_goes_there_and_back() {
     let rods = robot(Torsion::Ratio(5.0));
     let course = |time: f64| {
-        let share = from_rest_to_rest(0.0, 1.0, 0.0, 3.0, time).0 - from_rest_to_rest(0.0, 1.0, 3.5, 6.5, time).0;
+        let share = rest_to_rest(0.0, 1.0, 0.0, 3.0, time) - rest_to_rest(0.0, 1.0, 3.5, 6.5, time);
         vec![Bends::new(0.1 * share, 0.4 * share), Bends::new(0.0, 0.3 * share), Bends::new(-0.2 * share, 0.3 * share)]
     };
     let plane = Plane { segment: 2, at: 0.03, stands: Stands::Always { normal: Vec3::x(), offset: 0.03 } };
@@ -151,7 +156,7 @@ fn one_segment_in_its_plane_is_as_the_elastic_segment_has_it() {
     use crate::model::contact::branch::{Surface, Touch};
     use crate::model::{Configuration, Touched};
     let rods = [Rod { length: 0.03, bending_stiffness: 0.0045, torsion: Torsion::Ratio(5.0) }];
-    let bend = |time: f64| from_rest_to_rest(0.0, 1.4, 0.0, 5.0, time).0;
+    let bend = |time: f64| rest_to_rest(0.0, 1.4, 0.0, 5.0, time);
     let delta = 0.7;
     let course = |time: f64| vec![crate::model::chain::bends(Configuration::new(bend(time), delta))];
     let path = Path::new(&rods, &course, &[0.0, 5.0], &[from(0, 2.0, delta, 0.0)]).expect("begins free");
@@ -181,7 +186,7 @@ fn a_course_that_begins_beyond_a_plane_begins_pressed() {
 fn a_clamp_keeps_what_is_below_and_lets_the_rest_bend_on() {
     use crate::model::{Configuration, Constrained};
     let rods = robot(Torsion::Ratio(5.0));
-    let bend = |time: f64| from_rest_to_rest(0.2, 1.2, 1.0, 6.0, time).0;
+    let bend = |time: f64| rest_to_rest(0.2, 1.2, 1.0, 6.0, time);
     let course =
         |time: f64| vec![Bends::new(0.1, 0.3), Bends::new(0.0, bend(time)), Bends::new(0.0, 0.1 + 0.3 * bend(time))];
     let clamp = Plane { segment: 1, at: 0.015, stands: Stands::Clamped { time: 3.0 } };
