@@ -21,9 +21,9 @@ mod study;
 mod table2;
 
 use centrode_core::scenario::link::{Link, Page};
-use centrode_core::scenario::preset::{self, PRESETS};
+use centrode_core::scenario::preset::{self, CHAINS, PRESETS};
 use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
-use centrode_core::scenario::{Scenario, ScenarioError};
+use centrode_core::scenario::{ChainScenario, Scenario, ScenarioError};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 use output::Failure;
@@ -89,6 +89,24 @@ impl ScenarioArgs {
         self.resolved(None)
     }
 
+    /// The experiment with several segments that is named; none where it has one.
+    fn chain(&self) -> Result<Option<ChainScenario>, Failure> {
+        let (place, bytes) = match (&self.file, &self.preset) {
+            (Some(path), _) => (path.display().to_string(), read(path)?),
+            (None, Some(name)) => match preset::find_chain(name) {
+                Some(preset) => (format!("preset {name}"), preset.toml.as_bytes().to_vec()),
+                None => return Ok(None),
+            },
+            (None, None) => return Ok(None),
+        };
+        if !ChainScenario::is_of(&bytes) {
+            return Ok(None);
+        }
+        let place = if self.sets.is_empty() { place } else { format!("{place} with --set") };
+        let scenario = ChainScenario::from_bytes(&bytes, &self.sets);
+        scenario.map(Some).map_err(|error| Failure::Input(format!("{place}: {error}")))
+    }
+
     /// The scenario, from a preset where neither file nor preset is named.
     fn scenario_or(&self, preset: &str) -> Result<Scenario, Failure> {
         self.resolved(Some(preset))
@@ -112,6 +130,12 @@ impl ScenarioArgs {
 
     fn resolved(&self, otherwise: Option<&str>) -> Result<Scenario, Failure> {
         let named = |place: String| move |error: ScenarioError| Failure::Input(format!("{place}: {error}"));
+        if let Some(scenario) = self.chain()? {
+            let segments = scenario.segments.len();
+            return Err(Failure::Input(format!(
+                "this experiment has [[segment]], {segments} of them: only `centrode run` takes it"
+            )));
+        }
         let link = self.link()?;
         let (place, mut draft) = match (&self.file, self.preset.as_deref().or(otherwise)) {
             _ if let Some(link) = &link => ("--link".into(), Draft::from_scenario(link.scenario())),
@@ -186,7 +210,7 @@ pub fn main() -> ExitCode {
 
 fn presets(out: &mut impl Write) -> Result<(), Failure> {
     let width = PRESETS.iter().map(|preset| preset.name.len()).max().unwrap_or(0);
-    for preset in PRESETS {
+    for preset in PRESETS.iter().chain(CHAINS) {
         writeln!(out, "{:width$}  {}", preset.name, preset.summary())?;
     }
     Ok(())

@@ -3,6 +3,7 @@
 //! A recording does not know whether a simulation or a rig made it, and what judges it never looks at the truth. What shows it
 //! reads the truth here and builds no plant of its own.
 
+pub mod chain;
 pub mod log;
 pub mod script;
 

@@ -5,6 +5,7 @@
 
 pub mod about;
 pub mod channels;
+pub mod chain;
 pub mod compare;
 pub mod course;
 pub mod export;

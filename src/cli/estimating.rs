@@ -17,6 +17,11 @@ pub struct Estimating {
 }
 
 impl Estimating {
+    /// The name of the detector, where one is given.
+    pub fn named(&self) -> Option<&str> {
+        self.detector.as_deref()
+    }
+
     /// The detector.
     pub fn detector(&self) -> Result<Method, Failure> {
         self.detector.as_ref().map_or(Ok(Method::Cusum), |name| method("--detector", name))

@@ -3,6 +3,8 @@
 //! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
 //! at most [`MAX_CROSSINGS`](centrode_core::study::report::MAX_CROSSINGS) of them.
 
+mod chain;
+
 use super::ScenarioArgs;
 use super::draw::{self, Format};
 use super::estimating::Estimating;
@@ -10,7 +12,7 @@ use super::logfile::LogFile;
 use super::output::{Failure, NewFile, Table, say};
 use super::report::{Report, print, too_many};
 use centrode_core::run::{MAX_KEPT, Run, Simulation};
-use centrode_core::scenario::Plan;
+use centrode_core::scenario::{ChainScenario, Plan};
 use centrode_core::scenario::link::Page;
 use centrode_core::study::export::signed;
 use centrode_core::study::report::{Conclusions, Tally};
@@ -43,6 +45,9 @@ pub struct RunArgs {
 impl RunArgs {
     /// Simulates and reports.
     pub fn execute(&self, out: &mut impl Write) -> Result<(), Failure> {
+        if let Some(scenario) = self.scenario.chain()? {
+            return self.chain(&scenario, out);
+        }
         let scenario = self.scenario.scenario()?;
         let plan = Plan::new(&scenario).map_err(|error| Failure::Input(error.to_string()))?;
         let (detector, after) = (self.estimating.detector()?, self.estimating.after()?);
@@ -92,5 +97,17 @@ impl RunArgs {
         let truth = Some((&plan, simulation.plant_events()));
         let report = Report::new(scenario, tally, simulation.events(), truth, conclusions, None);
         print(out, &report, self.json)
+    }
+
+    /// The same with several segments.
+    fn chain(&self, scenario: &ChainScenario, out: &mut impl Write) -> Result<(), Failure> {
+        for (given, flag) in [(self.log.is_some(), "--log"), (self.figure.is_some(), "--figure")] {
+            if given {
+                return Err(Failure::Input(format!("{flag}: not for an experiment with several segments")));
+            }
+        }
+        let (detector, after) = (self.estimating.named(), self.estimating.after()?);
+        let csv = self.csv.as_deref();
+        chain::execute(scenario, &chain::Asked { detector, after, json: self.json, csv }, out)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::evidence::Judgement;
 use super::judge::Settings;
+use super::latch::{Latch, Turn};
 use super::statistic::Method;
 use crate::model::{Configuration, Location, Rate, locate};
 use serde::Serialize;
@@ -70,11 +71,9 @@ impl Detection {
 #[derive(Debug, Clone)]
 struct Lamp {
     detector: Method,
-    above: bool,
-    /// Place of the event that stands, among all events.
-    standing: Option<usize>,
-    /// Since when its value has been low, s.
-    low_since: Option<f64>,
+    latch: Latch,
+    /// Place of its last event, among all events.
+    last: usize,
 }
 
 /// The detectors that judge, one instant after the other. What it keeps grows with the events, and with the crossings unless they are
@@ -91,7 +90,7 @@ impl Alarms {
     /// Before the first instant.
     #[must_use]
     pub fn new(settings: &Settings) -> Self {
-        let lamp = |detector| Lamp { detector, above: false, standing: None, low_since: None };
+        let lamp = |detector| Lamp { detector, latch: Latch::default(), last: 0 };
         Self {
             settings: settings.clone(),
             lamps: settings.thresholds.detectors.iter().map(lamp).collect(),
@@ -109,13 +108,12 @@ impl Alarms {
             let Some(threshold) = method.threshold(judgement, thresholds) else { continue };
             let statistic = method.statistic(judgement, time, thresholds);
             let Some(above) = statistic.above(threshold) else {
-                // Of a value that is not known nobody can say that it has stayed low.
-                lamp.low_since = None;
+                lamp.latch.unknown();
                 continue;
             };
             let (theta_l, value) = (configuration.theta_l(), statistic.value);
-            let was = std::mem::replace(&mut lamp.above, above);
-            let crossed = above && !was;
+            let low = statistic.above(thresholds.release * threshold) == Some(false);
+            let (crossed, turn) = lamp.latch.look(time, above, low, thresholds.hold);
             if crossed {
                 crossings.push(Crossing { method, time, theta_l, value, threshold });
             }
@@ -125,24 +123,15 @@ impl Alarms {
                     locate(settings.assumption, settings.segment.length, *configuration, Rate::BENDING, sensor)?;
                 Some(Detection { time, theta_l, location: arc_length, distance })
             };
-            match lamp.standing {
-                None if above => {
-                    (lamp.standing, lamp.low_since) = (Some(events.len()), None);
+            match turn {
+                Some(Turn::Raised) => {
+                    lamp.last = events.len();
                     let (detector, raised, cleared) = (method, time, None);
                     let detection = detect();
                     events.push(Event { detector, raised, cleared, value, threshold, theta_l, detection });
                 }
-                Some(place) => {
-                    if crossed && events[place].detection.is_none() {
-                        events[place].detection = detect();
-                    }
-                    let low = statistic.above(thresholds.release * threshold) == Some(false);
-                    lamp.low_since = low.then(|| lamp.low_since.unwrap_or(time));
-                    if lamp.low_since.is_some_and(|since| time - since >= thresholds.hold) {
-                        events[place].cleared = Some(time);
-                        lamp.standing = None;
-                    }
-                }
+                _ if crossed && events[lamp.last].detection.is_none() => events[lamp.last].detection = detect(),
+                Some(Turn::Cleared) => events[lamp.last].cleared = Some(time),
                 None => {}
             }
         }

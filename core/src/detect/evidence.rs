@@ -136,7 +136,7 @@ pub fn deviation(model_centrode: &Vec3, motion: &FilteredMotion) -> (Vec3, f64) 
 }
 
 /// Angle between two axes of rotation, rad; NaN where one of them is none.
-fn angle_between(a: &Vec3, b: &Vec3) -> f64 {
+pub(super) fn angle_between(a: &Vec3, b: &Vec3) -> f64 {
     let none = a.norm() == 0.0 || b.norm() == 0.0;
     if none { f64::NAN } else { libm::atan2(a.cross(b).norm(), a.dot(b)) }
 }

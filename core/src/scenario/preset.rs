@@ -1,7 +1,7 @@
 //! Scenarios that come with the program.
 
 use crate::scenario::text::Draft;
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::{ChainError, ChainScenario, Scenario, ScenarioError};
 
 /// A scenario with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +15,12 @@ pub struct Preset {
 macro_rules! presets {
     ($($name:literal),* $(,)?) => {
         &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/", $name, ".toml")) }),*]
+    };
+}
+
+macro_rules! chains {
+    ($($name:literal),* $(,)?) => {
+        &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/chain/", $name, ".toml")) }),*]
     };
 }
 
@@ -44,7 +50,24 @@ pub const PRESETS: &[Preset] = presets![
     "play",
 ];
 
+/// Those with several segments, or with a beam out of the bending plane, which [`ChainScenario`] reads.
+pub const CHAINS: &[Preset] = chains!["three-segments", "two-contacts", "reopened", "buckling", "oblique", "tip-only"];
+
+/// The preset of a name with several segments.
+#[must_use]
+pub fn find_chain(name: &str) -> Option<&'static Preset> {
+    CHAINS.iter().find(|preset| preset.name == name)
+}
+
 impl Preset {
+    /// The experiment of one of [`CHAINS`], with values of keys in place of its own.
+    ///
+    /// # Errors
+    /// Never without these; a test reads them all.
+    pub fn chain(&self, overrides: &[String]) -> Result<ChainScenario, ChainError> {
+        ChainScenario::from_bytes(self.toml.as_bytes(), overrides)
+    }
+
     /// What it shows, in a sentence.
     #[must_use]
     pub fn summary(&self) -> &'static str {

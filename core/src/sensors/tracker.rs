@@ -46,6 +46,14 @@ impl SimulatedTracker {
         }
     }
 
+    /// The tracker on the end disk of one segment of several, whose plan alone this is: what is wrong with the frame of all of them, and when
+    /// they read, is as `shared` has it, the plan of the first segment.
+    #[must_use]
+    pub fn one_of(shared: &Plan, plan: &Plan) -> Self {
+        let drift = Drift::new(shared.scenario().seed, &shared.scenario().calibration);
+        Self { robot: *shared.true_robot(), drift, ..Self::new(plan) }
+    }
+
     /// The reading that the loop sees at `time` (s). When it is a new one, `tip` gives the pose of the end disk in {B} at the time
     /// (s) at which it was taken.
     pub fn read(&mut self, time: f64, tip: impl FnOnce(f64) -> Pose) -> Reading {

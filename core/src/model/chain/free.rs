@@ -38,6 +38,12 @@ pub(super) fn end(length: f64, configuration: Configuration) -> (Pose, [Twist; 2
     (pose, [along * -sin + across * cos, along * -cos + across * -sin])
 }
 
+/// The end disk of an arc in the frame of its base.
+#[must_use]
+pub fn pose(length: f64, configuration: Configuration) -> Pose {
+    Arc { length, configuration }.pose(length)
+}
+
 /// Where a frame is, and how it moves by the U of every segment.
 #[derive(Debug, Clone)]
 pub(super) struct Moving {
@@ -110,7 +116,7 @@ pub fn poses(rods: &[super::Rod], bends: &[Bends]) -> Vec<Pose> {
     let segments = rods.iter().zip(bends);
     segments
         .map(|(rod, bends)| {
-            let end = Arc { length: rod.length, configuration: super::configuration(bends) }.pose(rod.length);
+            let end = pose(rod.length, super::configuration(bends));
             at = Pose { position: at.position + at.rotation * end.position, rotation: at.rotation * end.rotation };
             at
         })

@@ -20,7 +20,7 @@ const OWN: [&str; 3] = ["joint_offset", "torsion", "motion"];
 const TURN: [&str; 3] = ["delta_end", "delta_start", "delta_finish"];
 const CONTACT: [&str; 9] = ["segment", "disk", "at", "kind", "time", "bend", "tilt", "normal", "offset"];
 /// What a scenario of one segment has in their place.
-const ALONE: [&str; 5] = ["robot", "motion", "contact", "load", "load_cells"];
+const ALONE: [&str; 4] = ["robot", "motion", "load", "load_cells"];
 
 const INSTEAD: &str = "not in an experiment with [[segment]]: what it says stands in [[segment]] and [[contact]]; joint forces are not simulated there";
 const DETECTORS: &str = "a list of any of fcd, fcd-consistent, fcd-velocity, cusum, glr, smd";

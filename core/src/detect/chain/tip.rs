@@ -1,0 +1,91 @@
+//! With a tracker on the last end disk alone: its screw motion against that of the whole chain.
+
+use super::{ChainEvent, ChainSettings, screw_events};
+use crate::detect::evidence::Judgement;
+use crate::detect::filter::{FilteredMotion, PoseFilter};
+use crate::model::centrode::centrode;
+use crate::model::chain::{bends, free};
+use crate::model::orientation::to_euler;
+use crate::model::{Configuration, Pose, Vec3};
+use crate::record::chain::ChainRecording;
+use crate::sensors::tracker::{Reading, refresh, unwrapped};
+
+/// The events of the screw motion deviation of the last end disk. What other detectors see rests on the motion of a segment by itself, which
+/// nobody measures.
+pub(super) fn events(recording: &ChainRecording, settings: &ChainSettings) -> Vec<ChainEvent> {
+    let (Some(smd), Some(own)) = (&settings.smd, settings.segments.last()) else { return Vec::new() };
+    let Some(readings) = recording.readings.last().and_then(Option::as_ref) else { return Vec::new() };
+    let mut filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
+    let mut model = Model { recording, settings, held: None };
+    let mut whole = 0;
+    let judgements = recording.times.iter().zip(readings).enumerate().map(|(k, (&time, reading))| {
+        if reading.position.x.is_nan() {
+            filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
+            whole = 0;
+            return (time, Judgement::UNDEFINED);
+        }
+        whole = own.filter.length.min(whole + 1);
+        let expected = model.reading(k, time);
+        let [sensor, ours] = [filters[0].push(reading), filters[1].push(&expected)];
+        (time, if whole == own.filter.length { judgement(&sensor, &ours) } else { Judgement::UNDEFINED })
+    });
+    let judgements: Vec<(f64, Judgement)> = judgements.collect();
+    screw_events(recording.segments() - 1, judgements.into_iter(), own, smd)
+}
+
+fn judgement(sensor: &FilteredMotion, model: &FilteredMotion) -> Judgement {
+    let at = |motion: &FilteredMotion| centrode(&motion.position, &motion.twist);
+    let consistent = match (at(sensor), at(model)) {
+        (Some(sensor), Some(model)) => (sensor - model).norm(),
+        _ => f64::NAN,
+    };
+    let turned = crate::detect::evidence::angle_between(&model.twist.angular, &sensor.twist.angular);
+    Judgement { speed: sensor.twist.angular.norm(), consistent, turned, ..Judgement::UNDEFINED }
+}
+
+/// What the tracker would read if the chain stood as commanded.
+struct Model<'a> {
+    recording: &'a ChainRecording,
+    settings: &'a ChainSettings,
+    /// The refresh of the last reading, and the reading.
+    held: Option<(f64, Reading)>,
+}
+
+impl Model<'_> {
+    fn reading(&mut self, k: usize, time: f64) -> Reading {
+        let clock = &self.settings.segments[self.settings.segments.len() - 1].clock;
+        let refresh = refresh(clock.rate, time);
+        if let Some((at, reading)) = self.held
+            && at == refresh
+        {
+            return reading;
+        }
+        let taken = ((refresh / clock.rate).min(time) - clock.latency).max(0.0);
+        let tip = self.tip(k, taken);
+        let mut angles = to_euler(&(tip.rotation * clock.tip_from_marker));
+        if let Some((_, before)) = &self.held {
+            angles = [0, 1, 2].map(|k| unwrapped(angles[k], before.angles[k]));
+        }
+        let reading = Reading { position: tip.position, angles };
+        self.held = Some((refresh, reading));
+        reading
+    }
+
+    /// The last end disk as commanded at a time (s) not after entry `k`.
+    fn tip(&self, k: usize, time: f64) -> Pose {
+        let times = &self.recording.times[..=k];
+        let after = times.partition_point(|at| *at <= time).min(k);
+        let before = after.saturating_sub(1);
+        let span = times[after] - times[before];
+        let share = if span > 0.0 { ((time - times[before]) / span).clamp(0.0, 1.0) } else { 0.0 };
+        let mut at = Pose { position: Vec3::zeros(), rotation: crate::model::Mat3::identity() };
+        for (segment, told) in self.recording.told.iter().enumerate() {
+            let [from, to] = [before, after].map(|k| bends(told[k].configuration));
+            let configuration: Configuration = crate::model::chain::configuration(&(from + (to - from) * share));
+            let length = self.settings.segments[segment].segment.length;
+            let end = free::pose(length, configuration);
+            at = Pose { position: at.position + at.rotation * end.position, rotation: at.rotation * end.rotation };
+        }
+        at
+    }
+}
