@@ -4,8 +4,8 @@
 //! terminal can drive it, and whose result may be looked at before it is complete. Same inputs, same bits.
 
 pub mod about;
-pub mod channels;
 pub mod chain;
+pub mod channels;
 pub mod compare;
 pub mod course;
 pub mod export;

@@ -15,6 +15,7 @@ pub mod course;
 pub mod cusum;
 pub mod filter;
 pub mod glr;
+pub mod jointly;
 pub mod likelihood;
 pub mod linear;
 pub mod marginal;

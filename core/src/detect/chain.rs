@@ -6,6 +6,7 @@
 //! alone, nothing is known of the segments by themselves; its motion is compared with that of the whole chain.
 
 mod contacts;
+mod hypotheses;
 mod relative;
 mod tip;
 
@@ -13,6 +14,7 @@ use super::evidence::Judgement;
 use super::judge::{Judged, Settings, judge};
 use super::latch::{Latch, Turn};
 use super::statistic::Method;
+use crate::model::chain::Torsion;
 use crate::record::Recording;
 use crate::record::chain::ChainRecording;
 use crate::scenario::ChainScenario;
@@ -47,6 +49,8 @@ impl ChainMethod {
 pub struct ChainSettings {
     /// Of each segment alone.
     pub segments: Vec<Settings>,
+    /// How each resists torsion.
+    pub torsions: Vec<Torsion>,
     /// Which detectors judge besides the screw motion deviation.
     pub methods: Vec<Method>,
     /// Thresholds of the screw motion deviation; none where it does not judge.
@@ -59,13 +63,15 @@ impl ChainSettings {
     /// Those of an experiment.
     #[must_use]
     pub fn of(scenario: &ChainScenario) -> Self {
-        let mut segments: Vec<Settings> = scenario.segments.iter().map(|segment| Settings::of(&segment.alone)).collect();
+        let mut segments: Vec<Settings> =
+            scenario.segments.iter().map(|segment| Settings::of(&segment.alone)).collect();
         let methods = segments.first().map_or_else(Vec::new, |first| first.thresholds.detectors.iter().collect());
         if scenario.smd.is_some() {
             // The distance between the screw axes is that of their points nearest to the end disk: the centrodes.
             segments.iter_mut().for_each(|settings| settings.thresholds.detectors.set(Method::FcdConsistent, true));
         }
-        Self { segments, methods, smd: scenario.smd, tracked: scenario.tracked }
+        let torsions = scenario.segments.iter().map(|segment| segment.torsion).collect();
+        Self { segments, torsions, methods, smd: scenario.smd, tracked: scenario.tracked }
     }
 }
 
@@ -127,11 +133,7 @@ pub fn judge_chain(recording: &ChainRecording, settings: &ChainSettings) -> Chai
 }
 
 /// The events of detectors that judge a segment by itself.
-fn of_methods<'a>(
-    segment: usize,
-    judged: &'a Judged,
-    methods: &'a [Method],
-) -> impl Iterator<Item = ChainEvent> + 'a {
+fn of_methods<'a>(segment: usize, judged: &'a Judged, methods: &'a [Method]) -> impl Iterator<Item = ChainEvent> + 'a {
     judged.events.iter().filter(|event| methods.contains(&event.detector)).map(move |event| ChainEvent {
         segment,
         detector: ChainMethod::Of(event.detector),

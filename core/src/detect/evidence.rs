@@ -239,7 +239,8 @@ impl Observer {
         let whole = self.sensor.is_whole();
         let (consistent, turned) = self.consistent.as_mut().map_or((f64::NAN, f64::NAN), |(reading, average)| {
             let model = average.motion(reading);
-            let apart = centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm());
+            let apart =
+                centrode(&model.position, &model.twist).map_or(f64::NAN, |model| (model - sensor_centrode).norm());
             (apart, angle_between(&model.twist.angular, &motion.twist.angular))
         });
         let judgement = Judgement {

@@ -17,6 +17,7 @@ pub mod joints;
 mod modes;
 mod newton;
 pub mod path;
+pub mod pressed;
 mod profile;
 mod search;
 mod shape;

@@ -1,7 +1,7 @@
 //! Recordings of several segments: a tracker on every end disk, or on the last alone.
 
-use crate::model::chain::path::Instant;
 use crate::model::Configuration;
+use crate::model::chain::path::Instant;
 use crate::scenario::ChainPlan;
 use crate::scenario::chain::Tracked;
 use crate::sensors::tracker::{Reading, SimulatedTracker};

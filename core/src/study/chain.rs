@@ -1,6 +1,8 @@
 //! What a run of several segments comes to. Segments, disks and contacts count from 1, as in a file.
 
-use crate::detect::chain::{Along, ChainContactFound, ChainEvent, ChainJudged, ChainMethod, ChainSettings, judge_chain};
+use crate::detect::chain::{
+    Along, ChainContactFound, ChainEvent, ChainJudged, ChainMethod, ChainSettings, judge_chain,
+};
 use crate::model::chain::path::What;
 use crate::record::chain::ChainRecording;
 use crate::scenario::ChainPlan;

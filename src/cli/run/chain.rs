@@ -29,9 +29,8 @@ pub(super) fn execute(scenario: &ChainScenario, asked: &Asked, out: &mut impl Wr
         )));
     }
     let csv = asked.csv.map(NewFile::create).transpose()?;
-    let plan = ChainPlan::new(scenario).map_err(|unsettled| {
-        Failure::Input(format!("as the experiment begins, there is {unsettled}"))
-    })?;
+    let plan = ChainPlan::new(scenario)
+        .map_err(|unsettled| Failure::Input(format!("as the experiment begins, there is {unsettled}")))?;
     let run = ChainRun::new(plan);
     if let Some(file) = csv {
         write_csv(file, &run)?;
@@ -122,7 +121,11 @@ fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
             "met" => writeln!(out, "            at {:.3} s contact {which} is met", event.time)?,
             "opened" => writeln!(out, "            at {:.3} s the robot comes off contact {which}", event.time)?,
             "buckled" => writeln!(out, "            at {:.3} s the robot buckles; the run ends there", event.time)?,
-            _ => writeln!(out, "            at {:.3} s no shape near that of before is found; the run ends there", event.time)?,
+            _ => writeln!(
+                out,
+                "            at {:.3} s no shape near that of before is found; the run ends there",
+                event.time
+            )?,
         }
     }
     for event in &report.events {

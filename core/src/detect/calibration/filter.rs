@@ -208,3 +208,33 @@ impl<const N: usize> Responses<N> {
         seen
     }
 }
+
+/// What contacts at several places change in a reading: a residual in each column.
+pub type Signature<const N: usize> = SMatrix<f64, 6, N>;
+
+/// The same for signatures that may have parts out of the bending plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpatialResponses<const N: usize> {
+    states: SMatrix<f64, STATES, N>,
+    last: Signature<N>,
+}
+
+impl<const N: usize> Default for SpatialResponses<N> {
+    fn default() -> Self {
+        Self { states: SMatrix::zeros(), last: SMatrix::zeros() }
+    }
+}
+
+impl<const N: usize> SpatialResponses<N> {
+    /// What a signature adds to the innovation of a reading.
+    pub fn step(&mut self, stage: &Stage, off: &Signature<N>) -> Signature<N> {
+        let fresh = off - self.last * stage.colour;
+        self.last = *off;
+        if stage.kept < 1.0 {
+            self.states.rows_mut(DRIFT, STATES - DRIFT).scale_mut(stage.kept);
+        }
+        let seen = stage.whitener * fresh - stage.seen * self.states;
+        self.states += stage.gain * seen;
+        seen
+    }
+}

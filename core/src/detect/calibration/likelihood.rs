@@ -4,8 +4,8 @@
 //! then known at every place to the last digit.
 
 use super::Six;
-use super::filter::{Responses, Stage};
-use super::signature::{PLACES, Shapes, weights};
+use super::filter::{Responses, Signature, SpatialResponses, Stage};
+use super::signature::{PLACES, Shapes, free_weights, weights};
 
 /// Spacing of the posterior's grid, as a share of L: 0.1 mm on the paper's segment.
 pub const GRID: f64 = 1.0 / 300.0;
@@ -19,36 +19,55 @@ pub struct Grid {
     places: Vec<f64>,
     weights: Vec<[f64; PLACES]>,
     spacing: f64,
+    base: Base,
+}
+
+/// What a contact at the base of a segment changes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Base {
+    /// Nothing: it stays.
+    Stays,
+    /// As much as any: it moves.
+    Moves,
+}
+
+impl Base {
+    fn weights(self, place: f64) -> [f64; PLACES] {
+        match self {
+            Self::Stays => weights(place),
+            Self::Moves => free_weights(place),
+        }
+    }
 }
 
 impl Grid {
     /// Those of a posterior.
     #[must_use]
-    pub fn fine() -> Self {
-        Self::every(1)
+    pub fn fine(base: Base) -> Self {
+        Self::every(1, base)
     }
 
     /// Fewer of them: enough to see how large a ratio is anywhere.
     #[must_use]
-    pub fn coarse() -> Self {
-        Self::every(10)
+    pub fn coarse(base: Base) -> Self {
+        Self::every(10, base)
     }
 
     /// `count` of them in the middle of as many equal parts from a place to another (in units of L).
     #[must_use]
-    pub fn between(ends: [f64; 2], count: u32) -> Self {
+    pub fn between(&self, ends: [f64; 2], count: u32) -> Self {
         let spacing = (ends[1] - ends[0]) / f64::from(count);
-        Self::of((0..count).map(|i| ends[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing)
+        Self::of((0..count).map(|i| ends[0] + (f64::from(i) + 0.5) * spacing).collect(), spacing, self.base)
     }
 
-    fn every(step: u32) -> Self {
+    fn every(step: u32, base: Base) -> Self {
         let places = (step..).step_by(step as usize).map(|i| f64::from(i) * GRID);
-        Self::of(places.take_while(|place| *place < 1.0 - 0.5 * GRID).collect(), f64::from(step) * GRID)
+        Self::of(places.take_while(|place| *place < 1.0 - 0.5 * GRID).collect(), f64::from(step) * GRID, base)
     }
 
-    fn of(places: Vec<f64>, spacing: f64) -> Self {
-        let weights = places.iter().copied().map(weights).collect();
-        Self { places, weights, spacing }
+    fn of(places: Vec<f64>, spacing: f64, base: Base) -> Self {
+        let weights = places.iter().map(|place| base.weights(*place)).collect();
+        Self { places, weights, spacing, base }
     }
 
     /// From one place to the next, in units of L.
@@ -86,7 +105,7 @@ impl Row {
         (whole, part): (usize, f64),
         side: f64,
     ) -> Self {
-        let mut row = Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] };
+        let mut row = Self::silent((whole, part));
         let next = bends.get(whole + 1).copied().unwrap_or(bends[whole]);
         let met = shapes.met(bends[whole] + part * (next - bends[whole]));
         let mut responses = Responses::default();
@@ -96,6 +115,29 @@ impl Row {
             row.add(&responses.step(stage(k), &off), &innovations[k]);
         }
         row
+    }
+
+    /// Nothing heard of contacts that began at a reading and some of the way to the next.
+    pub fn silent((whole, part): (usize, f64)) -> Self {
+        Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] }
+    }
+
+    /// Adds what one tracker hears of them: `signature` is that of a reading after the beginning.
+    pub fn hear<'s>(
+        &mut self,
+        stage: impl Fn(usize) -> &'s Stage,
+        innovations: &[Six],
+        signature: impl Fn(usize) -> Signature<PLACES>,
+    ) {
+        let mut responses = SpatialResponses::default();
+        for (k, innovation) in innovations.iter().enumerate().skip(self.began as usize + 1) {
+            let seen = responses.step(stage(k), &signature(k));
+            let (linear, square) = (seen.tr_mul(innovation), seen.tr_mul(&seen));
+            for i in 0..PLACES {
+                self.linear[i] += linear[i];
+                (0..PLACES).for_each(|j| self.square[i][j] += square[(i, j)]);
+            }
+        }
     }
 
     #[inline]
@@ -129,7 +171,7 @@ impl Row {
         for _ in 0..HALVED {
             step *= 0.5;
             for beside in [place - step, place + step] {
-                let here = self.at(&weights(beside));
+                let here = self.at(&grid.base.weights(beside));
                 if here > most && (0.0..1.0).contains(&beside) {
                     (place, most) = (beside, here);
                 }

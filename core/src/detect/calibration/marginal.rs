@@ -6,7 +6,7 @@
 
 use super::course::{Model, Moment, residual};
 use super::filter::{Designer, Filter, Stage};
-use super::likelihood::{self, Grid, Row};
+use super::likelihood::{self, Base, Grid, Row};
 use super::linear::{self, Linear};
 use super::signature::Shapes;
 use super::{Command, STATES, Six, States};
@@ -21,7 +21,7 @@ const STRIDE: usize = 4;
 /// Beginnings whose log likelihood is this much below the best are left out.
 const NEGLIGIBLE: f64 = 16.0;
 /// The calibration is estimated up to so many readings before the contact.
-const CLEAR: usize = 2;
+pub(super) const CLEAR: usize = 2;
 /// Steps of Gauss and Newton; each is about the square of the one before, so that what follows one below [`SETTLED`] prior deviations
 /// counts for nothing.
 const STEPS: usize = 4;
@@ -76,8 +76,6 @@ pub struct Estimate {
 pub struct Question<'a> {
     /// The first reading that is tried as the beginning.
     pub first: usize,
-    /// The last one, if readings go so far.
-    pub latest: usize,
     /// The kinds of contact that are thought possible, each as likely as the others beforehand.
     pub kinds: &'a [Kind],
     /// Beginnings that are tried between one reading and the next.
@@ -85,7 +83,7 @@ pub struct Question<'a> {
 }
 
 /// An error of the calibration is believed up to so many of its prior standard deviations.
-const BELIEVED: f64 = 6.0;
+pub(super) const BELIEVED: f64 = 6.0;
 
 /// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved, and where the readings before the
 /// contact tell of calibration errors far beyond those that were thought possible.
@@ -98,7 +96,7 @@ pub fn estimate(history: &History, question: &Question) -> Option<Estimate> {
 }
 
 /// Innovations of all readings by the nominal model, and the errors estimated after each.
-fn nominal(history: &History) -> (Vec<Six>, Vec<States>) {
+pub(super) fn nominal(history: &History) -> (Vec<Six>, Vec<States>) {
     let mut filter = Filter::default();
     let step = |(moment, reading): (&Moment, &Pose)| {
         let innovation = filter.step(&moment.stage, &moment.residual(reading));
@@ -113,14 +111,18 @@ fn beginning(history: &History, heard: &[Six], question: &Question) -> Option<us
     let last = heard.len().checked_sub(1)?;
     let bends: Vec<f64> = moments[..=last].iter().map(|moment| moment.command.bend).collect();
     let shapes = Shapes::clamps(model.length);
-    let grid = Grid::coarse();
+    let grid = Grid::coarse(Base::Stays);
     let stages = |k: usize| &moments[k].stage;
     let most = |began: usize| {
         let side = moments[began].command.rate.signum();
         Row::new(&shapes, stages, heard, &bends, (began, 0.0), side).most(&grid)
     };
-    let tried = question.first..last.min(question.latest.saturating_add(1));
-    let moving: Vec<usize> = tried.filter(|&began| moments[began].command.rate != 0.0).collect();
+    let moving: Vec<usize> = (question.first..last).filter(|&began| moments[began].command.rate != 0.0).collect();
+    likeliest(&moving, most)
+}
+
+/// Of some readings the one with the largest value: every so many of them, then near the best.
+pub(super) fn likeliest(moving: &[usize], most: impl Fn(usize) -> f64) -> Option<usize> {
     let best = |tried: &mut dyn Iterator<Item = usize>| {
         tried.map(|at| (at, most(moving[at]))).max_by(|a, b| a.1.total_cmp(&b.1)).map(|(at, _)| at)
     };
@@ -130,10 +132,10 @@ fn beginning(history: &History, heard: &[Six], question: &Question) -> Option<us
 }
 
 /// Where the model is made linear.
-struct Calibrated {
+pub(super) struct Calibrated {
     /// In units of their prior deviations.
-    states: States,
-    deviations: States,
+    pub states: States,
+    pub deviations: States,
 }
 
 /// The innovations of all readings, by the model that is linear about the errors that they tell of themselves. By the nominal one they
@@ -147,7 +149,7 @@ pub fn innovations(history: &History) -> Vec<Six> {
 }
 
 /// Gauss and Newton on the readings up to `until`, from what the nominal model makes of them.
-fn calibrate(history: &History, until: usize, nominal: &[States]) -> Option<Calibrated> {
+pub(super) fn calibrate(history: &History, until: usize, nominal: &[States]) -> Option<Calibrated> {
     let History { model, moments, readings } = history;
     let mut states = *nominal.get(until)?;
     let mut deviations = States::zeros();
@@ -175,11 +177,11 @@ fn calibrate(history: &History, until: usize, nominal: &[States]) -> Option<Cali
 }
 
 /// Readings by a model that is linear about some errors of the calibration.
-struct About {
-    stages: Vec<Stage>,
-    innovations: Vec<Six>,
+pub(super) struct About {
+    pub stages: Vec<Stage>,
+    pub innovations: Vec<Six>,
     /// The bend that the tracker measures, rad.
-    bends: Vec<f64>,
+    pub bends: Vec<f64>,
 }
 
 impl About {
@@ -190,7 +192,7 @@ impl About {
 }
 
 /// The first `count` readings by the model that is linear about these errors.
-fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> About {
+pub(super) fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> About {
     let History { model, moments, readings } = history;
     // Drift is no constant: about zero.
     errors[super::DRIFT..].fill(0.0);
@@ -209,10 +211,10 @@ fn about_errors(history: &History, mut errors: linear::Errors, count: usize) -> 
 }
 
 /// Contacts of one kind: beginnings that were tried, `parts` of them to a reading.
-struct Tried {
-    kind: Kind,
-    rows: Vec<Row>,
-    parts: u32,
+pub(super) struct Tried {
+    pub kind: Kind,
+    pub rows: Vec<Row>,
+    pub parts: u32,
 }
 
 fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Question) -> Option<Estimate> {
@@ -227,8 +229,7 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
     let about = about_errors(history, errors, last + 1);
     let length = model.length * (1.0 + errors[6]);
     let first = question.first;
-    let tried = first..last.min(question.latest.saturating_add(1));
-    let moving: Vec<usize> = tried.filter(|&k| moments[k].command.rate != 0.0).collect();
+    let moving: Vec<usize> = (first..last).filter(|&k| moments[k].command.rate != 0.0).collect();
     let side = moments[began].command.rate.signum();
     let all = kinds.iter().map(|&kind| {
         let shapes = match kind {
@@ -236,18 +237,24 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
             Kind::Plane => Shapes::planes(length, &about.bends[first..=last], side),
         };
         let row = |began: (usize, f64)| about.row(&shapes, began, side);
-        let (rows, parts) = rows(row, &moving, began, parts);
+        let (rows, parts) = rows(row, &moving, began, parts, &Grid::coarse(Base::Stays));
         Tried { kind, rows, parts }
     });
     let all: Vec<Tried> = all.collect();
     let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
     let commands: Vec<Command> = moments.iter().map(|moment| moment.command).collect();
-    weigh(&all, length, &commands, moving.len(), [errors, deviations])
+    let calibration = [errors, deviations];
+    weigh(&all, &Weighed { base: Base::Stays, length, commands: &commands, beginnings: moving.len(), calibration })
 }
 
 /// The beginnings that count, and how many of them there are to a reading, at most `parts`.
-fn rows(row: impl Fn((usize, f64)) -> Row, moving: &[usize], began: usize, parts: u32) -> (Vec<Row>, u32) {
-    let grid = Grid::coarse();
+pub(super) fn rows(
+    row: impl Fn((usize, f64)) -> Row,
+    moving: &[usize],
+    began: usize,
+    parts: u32,
+    grid: &Grid,
+) -> (Vec<Row>, u32) {
     let mut best = f64::NEG_INFINITY;
     let mut rows: Vec<(f64, Row)> = Vec::new();
     // Outward from the likeliest beginning, to where nothing is left.
@@ -256,7 +263,7 @@ fn rows(row: impl Fn((usize, f64)) -> Row, moving: &[usize], began: usize, parts
     for side in sides {
         for &next in side {
             let row = row((next, 0.0));
-            let most = row.most(&grid);
+            let most = row.most(grid);
             best = best.max(most);
             rows.push((most, row));
             if most < best - NEGLIGIBLE {
@@ -266,7 +273,7 @@ fn rows(row: impl Fn((usize, f64)) -> Row, moving: &[usize], began: usize, parts
     }
     rows.sort_by(|a, b| a.1.began.total_cmp(&b.1.began));
     let all: Vec<&Row> = rows.iter().map(|(_, row)| row).collect();
-    let parts = likelihood::parts(&all, &grid, best).map_or(parts, |enough| enough.min(parts)).max(1);
+    let parts = likelihood::parts(&all, grid, best).map_or(parts, |enough| enough.min(parts)).max(1);
     rows.retain(|(most, _)| *most > best - NEGLIGIBLE);
     let part = |part: u32| f64::from(part) / f64::from(parts);
     let divided = rows.into_iter().flat_map(|(_, whole)| {
@@ -330,23 +337,29 @@ impl Sum {
     fn denser(&self) -> Option<Grid> {
         let most = self.density.iter().copied().fold(0.0, f64::max);
         let counts = |density: &f64| *density > FAINT * most;
+        let grid = &self.grid;
         let [first, last] = [self.density.iter().position(counts)?, self.density.iter().rposition(counts)?];
         let (places, spacing) = (self.grid.places(), self.grid.spacing());
         let ends = [places[first] - spacing, places[last] + spacing];
-        (last - first < FEWEST as usize).then(|| Grid::between([ends[0].max(0.0), ends[1].min(1.0)], 2 * FEWEST))
+        (last - first < FEWEST as usize).then(|| grid.between([ends[0].max(0.0), ends[1].min(1.0)], 2 * FEWEST))
     }
 }
 
 /// Adds the rows up, as densely as their sum is narrow.
-/// `beginnings` is how many readings were thought of.
-fn weigh(
-    all: &[Tried],
-    length: f64,
-    commands: &[Command],
-    beginnings: usize,
-    calibration: [[f64; STATES]; 2],
-) -> Option<Estimate> {
-    let mut sum = Sum::of(all, commands, Grid::fine())?;
+/// What is weighed besides the likelihood.
+pub(super) struct Weighed<'a> {
+    pub base: Base,
+    /// Length of the segment, m.
+    pub length: f64,
+    pub commands: &'a [Command],
+    /// How many readings were thought of as the beginning.
+    pub beginnings: usize,
+    pub calibration: [[f64; STATES]; 2],
+}
+
+pub(super) fn weigh(all: &[Tried], weighed: &Weighed) -> Option<Estimate> {
+    let Weighed { base, length, commands, beginnings, calibration } = *weighed;
+    let mut sum = Sum::of(all, commands, Grid::fine(base))?;
     for _ in 0..DENSER {
         let Some(grid) = sum.denser() else { break };
         sum = Sum::of(all, commands, grid)?;

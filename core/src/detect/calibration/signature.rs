@@ -25,6 +25,16 @@ pub fn weights(place: f64) -> [f64; PLACES] {
     })
 }
 
+/// The same where a contact at the base changes as much as any.
+#[must_use]
+pub fn free_weights(place: f64) -> [f64; PLACES] {
+    let places = places();
+    std::array::from_fn(|i| {
+        let others = places.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| *other);
+        others.map(|other| (place - other) / (places[i] - other)).product()
+    })
+}
+
 /// Bends of first contact between which shapes of a touching beam are interpolated.
 const NODES: usize = 4;
 

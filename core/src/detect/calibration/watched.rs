@@ -51,24 +51,13 @@ impl Watched {
         let alarm = free.len() + alarm.checked_sub(next)?;
         let margin = EARLIER + (alarm - begin) / 4;
         let first = alarm.saturating_sub(BEFORE).min(begin.saturating_sub(margin)).max(from);
-        let latest = usize::MAX;
         free.extend(next..=until);
         let pick = |k: &usize| Some((*self.readings.commands.get(*k)?, *self.readings.poses.get(*k)?));
         let (commands, readings): (Vec<_>, Vec<_>) =
             free.iter().map(pick).collect::<Option<Vec<_>>>()?.into_iter().unzip();
         let moments = Planner::all(&self.model, &commands, false);
         let history = History { model: &self.model, moments: &moments, readings: &readings };
-        estimate(&history, &Question { first, latest, kinds, parts })
-    }
-
-    /// A contact that began between two readings, from those up to `until`: with its ratio, whether anything was noticed or not.
-    #[must_use]
-    pub fn begun(&self, between: [usize; 2], until: usize, kinds: &[Kind], parts: u32) -> Option<Estimate> {
-        let [first, latest] = between;
-        let (commands, readings) = (self.readings.commands.get(..=until)?, self.readings.poses.get(..=until)?);
-        let moments = Planner::all(&self.model, commands, false);
-        let history = History { model: &self.model, moments: &moments, readings };
-        estimate(&history, &Question { first, latest, kinds, parts })
+        estimate(&history, &Question { first, kinds, parts })
     }
 
     /// The first reading at which a contact can have begun of which an alarm at a reading tells.

@@ -1,10 +1,15 @@
 //! Which segments carry contacts, where on the backbone, and since when.
 
+use super::hypotheses::{Course, KnownContact};
 use super::{ChainJudged, ChainMethod};
-use crate::detect::Method;
-use crate::detect::calibration::marginal::{Estimate, Place};
+use crate::detect::calibration::course::{Moment, Planner};
+use crate::detect::calibration::jointly::{self, Question};
+use crate::detect::calibration::marginal::{Estimate, History, Place};
 use crate::detect::calibration::watched::Watched;
-use crate::scenario::{Estimator, Kind};
+use crate::detect::{Method, Settings};
+use crate::model::Pose;
+use crate::model::chain::{Rod, Torsion, stiffnesses};
+use crate::scenario::Estimator;
 use libm::exp;
 
 /// A contact that alarms tell of.
@@ -18,6 +23,8 @@ pub struct ChainContactFound {
     pub deviating: Vec<usize>,
     /// Where it is, as more is read.
     pub estimates: Vec<ChainEstimate>,
+    /// The contacts that are thought to hold already.
+    before: Vec<KnownContact>,
 }
 
 /// What is known of a contact some time after its alarm.
@@ -61,18 +68,31 @@ impl ChainJudged {
     #[must_use]
     pub fn contacts(&self, detector: ChainMethod, after: &[f64]) -> Vec<ChainContactFound> {
         let mut found: Vec<ChainContactFound> = Vec::new();
+        let mut known: Vec<KnownContact> = Vec::new();
         for event in self.events.iter().filter(|event| event.detector == detector) {
             let (segment, alarm) = (event.segment, event.raised);
-            let standing = found.last_mut().filter(|last| self.stands(detector, last, alarm));
-            match standing {
-                Some(last) if last.deviating.iter().any(|other| segment <= *other) || self.began_before(segment, alarm, last.alarm) => {
+            let standing = found.last().is_some_and(|last| self.stands(detector, last, alarm));
+            let same = standing
+                && found.last().is_some_and(|last| {
+                    last.deviating.iter().any(|other| segment <= *other)
+                        || self.began_before(&known, segment, alarm, last.alarm)
+                });
+            match found.last_mut().filter(|_| same) {
+                Some(last) => {
                     last.deviating.push(segment);
                     last.deviating.sort_unstable();
                     last.deviating.dedup();
                 }
-                _ => {
+                None => {
+                    if standing && let Some(contact) = found.last().and_then(|last| self.settled(last, alarm)) {
+                        known.push(contact);
+                    }
+                    if !standing {
+                        known.clear();
+                    }
                     let deviating = vec![segment];
-                    found.push(ChainContactFound { alarm, raised_by: segment, deviating, estimates: Vec::new() });
+                    let (estimates, before) = (Vec::new(), known.clone());
+                    found.push(ChainContactFound { alarm, raised_by: segment, deviating, estimates, before });
                 }
             }
         }
@@ -87,19 +107,47 @@ impl ChainJudged {
     fn stands(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> bool {
         self.events.iter().any(|event| {
             let of = event.detector == detector && contact.deviating.contains(&event.segment);
-            of && event.raised >= contact.alarm && event.raised <= time && event.cleared.is_none_or(|cleared| cleared > time)
+            let raised = event.raised >= contact.alarm && event.raised <= time;
+            of && raised && event.cleared.is_none_or(|cleared| cleared > time)
         })
     }
 
+    /// What every segment showed up to a time (s).
+    fn heard(&self, time: f64) -> Option<Heard<'_>> {
+        let watched: Vec<&Watched> =
+            self.segments.iter().map(|judged| judged.watched.as_ref()).collect::<Option<_>>()?;
+        Heard::new(&watched, &self.rods(), time)
+    }
+
+    /// The nominal rods: distal backbones run inside proximal ones.
+    fn rods(&self) -> Vec<Rod> {
+        let tubes: Vec<(f64, f64)> =
+            self.settings.segments.iter().map(|settings| (settings.segment.ep_ip, settings.segment.es_is)).collect();
+        let segments = self.settings.segments.iter().zip(&self.settings.torsions).zip(stiffnesses(&tubes));
+        let rod = |((settings, torsion), bending_stiffness): ((&Settings, &Torsion), f64)| Rod {
+            length: settings.segment.length,
+            bending_stiffness,
+            torsion: *torsion,
+        };
+        segments.map(rod).collect()
+    }
+
     /// Whether what a segment alarms of had begun by an earlier alarm.
-    fn began_before(&self, segment: usize, alarm: f64, before: f64) -> bool {
-        let watched = self.segments.get(segment).and_then(|judged| judged.watched.as_ref());
-        let Some(watched) = watched else { return alarm - before < SAME };
+    fn began_before(&self, known: &[KnownContact], segment: usize, alarm: f64, before: f64) -> bool {
         let began = || {
-            let reading = watched.at(alarm)?;
-            watched.estimate(reading, reading, &kinds(self, segment), 1).map(|estimate| estimate.began)
+            let heard = self.heard(alarm)?;
+            let reading = heard.course.last;
+            let between = [heard.watched[segment].earliest(reading)?, reading];
+            heard.asked(known, segment, between, 1).map(|estimate| estimate.began)
         };
         began().map_or(alarm - before < SAME, |began| began <= before)
+    }
+
+    /// A contact as it is known at a later time (s).
+    fn settled(&self, contact: &ChainContactFound, time: f64) -> Option<KnownContact> {
+        let estimate = self.marginal(contact, time - contact.alarm, time)?;
+        let began = self.heard(time)?.reading(estimate.began?);
+        Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, began })
     }
 
     fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
@@ -110,20 +158,20 @@ impl ChainJudged {
         self.marginal(contact, after, time).or_else(|| self.by_centrode(detector, contact, after, time))
     }
 
-    /// Every segment is asked for the probability of its readings with a contact, over that without.
+    /// Every segment is asked for the probability of all readings with a contact on it, over that without.
     fn marginal(&self, contact: &ChainContactFound, after: f64, time: f64) -> Option<ChainEstimate> {
-        let watched: Vec<&Watched> = self.segments.iter().map(|judged| judged.watched.as_ref()).collect::<Option<_>>()?;
-        let raised = watched.get(contact.raised_by)?;
+        let heard = self.heard(time)?;
+        let raised = heard.watched.get(contact.raised_by)?;
         let latest = raised.at(contact.alarm)?;
         // As early as any segment that deviates by now leaves open.
-        let earliest = contact.deviating.iter().filter_map(|&segment| watched[segment].earliest(latest)).min();
+        let earliest = contact.deviating.iter().filter_map(|&segment| heard.watched[segment].earliest(latest)).min();
         let between = [earliest.or_else(|| raised.earliest(latest))?, latest];
-        let ask = |(segment, watched): (usize, &&Watched)| {
-            watched.begun(between, watched.at(time)?, &kinds(self, segment), self.settings.segments[segment].placing.beginnings)
-        };
-        let each: Vec<Option<Estimate>> = watched.iter().enumerate().map(ask).collect();
-        let ratios: Vec<f64> =
-            each.iter().map(|estimate| estimate.as_ref().map_or(f64::NEG_INFINITY, |estimate| estimate.ratio)).collect();
+        let parts = self.settings.segments[0].placing.beginnings;
+        let each: Vec<Option<Estimate>> =
+            (0..heard.watched.len()).map(|segment| heard.asked(&contact.before, segment, between, parts)).collect();
+        let ratio =
+            |estimate: &Option<Estimate>| estimate.as_ref().map_or(f64::NEG_INFINITY, |estimate| estimate.ratio);
+        let ratios: Vec<f64> = each.iter().map(ratio).collect();
         let probabilities = shares(&ratios)?;
         let segment = (0..probabilities.len()).max_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]))?;
         let posterior: Vec<Vec<[f64; 2]>> = each
@@ -172,9 +220,17 @@ impl ChainJudged {
     }
 
     /// Eq. 24 on the most distal segment that deviates by then.
-    fn by_centrode(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64, time: f64) -> Option<ChainEstimate> {
+    fn by_centrode(
+        &self,
+        detector: ChainMethod,
+        contact: &ChainContactFound,
+        after: f64,
+        time: f64,
+    ) -> Option<ChainEstimate> {
         let deviates = |segment: &&usize| {
-            self.events.iter().any(|event| event.detector == detector && event.segment == **segment && event.raised <= time)
+            self.events
+                .iter()
+                .any(|event| event.detector == detector && event.segment == **segment && event.raised <= time)
         };
         let segment = *contact.deviating.iter().rev().find(deviates)?;
         let judged = self.segments.get(segment)?;
@@ -197,37 +253,72 @@ impl ChainJudged {
 /// Without the calibration filter, alarms of segments above within this time (s) tell of the same contact.
 const SAME: f64 = 0.5;
 
-/// What kinds of contact are thought possible on a segment.
-fn kinds(judged: &ChainJudged, segment: usize) -> Vec<Kind> {
-    judged.settings.segments[segment].placing.plants.iter().collect()
+/// What was read on all end disks.
+struct Heard<'a> {
+    watched: Vec<&'a Watched>,
+    moments: Vec<Vec<Moment>>,
+    course: Course,
 }
 
-/// The probability of each segment to carry the most distal contact, every one as likely beforehand, from the logarithms of the
-/// ratios for each. Those above a contact are free. Those below it may deflect or not, as likely the one as the other: how is not
-/// asked, so that what the segments above have to say decides.
+impl<'a> Heard<'a> {
+    fn new(watched: &[&'a Watched], rods: &[Rod], time: f64) -> Option<Self> {
+        let last = watched.iter().map(|watched| watched.at(time)).collect::<Option<Vec<_>>>()?.into_iter().min()?;
+        let moments = watched
+            .iter()
+            .map(|watched| Some(Planner::all(&watched.model, watched.readings.commands.get(..=last)?, false)));
+        let moments: Vec<Vec<Moment>> = moments.collect::<Option<_>>()?;
+        let poses = watched.iter().map(|watched| &watched.readings.poses[..=last]);
+        let course = Course::new(rods, &histories(watched, &moments, poses))?;
+        Some(Self { watched: watched.to_vec(), moments, course })
+    }
+
+    /// The reading, and the share of the way to the next, at a time (s).
+    fn reading(&self, time: f64) -> f64 {
+        let commands = &self.watched[0].readings.commands;
+        let after = commands.partition_point(|command| command.time <= time).min(self.course.last);
+        let before = after.saturating_sub(1);
+        let span = commands[after].time - commands[before].time;
+        let share = if span > 0.0 { (time - commands[before].time) / span } else { 0.0 };
+        before as f64 + share.clamp(0.0, 1.0)
+    }
+
+    /// What all readings say of a contact on one segment that began between two readings.
+    fn asked(&self, known: &[KnownContact], segment: usize, between: [usize; 2], parts: u32) -> Option<Estimate> {
+        let planes = self.course.planes(known)?;
+        let last = self.course.last;
+        let poses: Vec<&[Pose]> = self.watched.iter().map(|watched| &watched.readings.poses[..=last]).collect();
+        let corrected = match known.first() {
+            None => None,
+            Some(first) => Some(self.course.without(&planes, first.began, &poses)?),
+        };
+        let poses = corrected.as_ref().map_or(poses, |poses| poses.iter().map(Vec::as_slice).collect());
+        let beginnings = self.course.moving(between);
+        let hypotheses = self.course.hypotheses(segment, between, &planes)?;
+        let length = self.watched[segment].model.length;
+        let question = Question { beginnings: &beginnings, parts, segment, length };
+        let histories = histories(&self.watched, &self.moments, poses.into_iter());
+        jointly::estimate(&histories, &hypotheses, &question)
+    }
+}
+
+fn histories<'a>(
+    watched: &[&'a Watched],
+    moments: &'a [Vec<Moment>],
+    poses: impl Iterator<Item = &'a [Pose]>,
+) -> Vec<History<'a>> {
+    let each = watched.iter().zip(moments).zip(poses);
+    each.map(|((watched, moments), readings)| History { model: &watched.model, moments, readings }).collect()
+}
+
+/// The probability of each segment, every one as likely beforehand, from the logarithms of the ratios for each.
 fn shares(ratios: &[f64]) -> Option<Vec<f64>> {
-    let mut below = 0.0;
-    let logs: Vec<f64> = ratios
-        .iter()
-        .map(|ratio| {
-            let here = below + ratio;
-            below += deflected(*ratio);
-            here
-        })
-        .collect();
-    let most = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let most = ratios.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if !most.is_finite() {
         return None;
     }
-    let weights: Vec<f64> = logs.iter().map(|log| exp(log - most)).collect();
+    let weights: Vec<f64> = ratios.iter().map(|ratio| exp(ratio - most)).collect();
     let total: f64 = weights.iter().sum();
     Some(weights.into_iter().map(|weight| weight / total).collect())
-}
-
-/// The logarithm of ½ (1 + e^ratio).
-fn deflected(ratio: f64) -> f64 {
-    let most = ratio.max(0.0);
-    most + libm::log(0.5 * (exp(-most) + exp(ratio - most)))
 }
 
 #[cfg(test)]
@@ -235,16 +326,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_most_distal_segment_that_deviates_is_to_blame() {
-        let likeliest = |ratios: &[f64]| {
-            let shares = shares(ratios).expect("finite");
-            assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-            (0..shares.len()).max_by(|&a, &b| shares[a].total_cmp(&shares[b])).expect("some")
-        };
-        assert_eq!(likeliest(&[300.0, -4.0, -5.0]), 0);
-        assert_eq!(likeliest(&[300.0, 20.0, -5.0]), 1);
-        assert_eq!(likeliest(&[300.0, 2000.0, 9.0]), 2);
-        assert_eq!(likeliest(&[-3.0, -3.0, 40.0]), 2);
+    fn probabilities_add_up_and_follow_the_ratios() {
+        let shares_of = shares(&[3.0, 2000.0, 1999.0]).expect("finite");
+        assert!((shares_of.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+        assert!((shares_of[1] / shares_of[2] - std::f64::consts::E).abs() < 1e-12 && shares_of[0] == 0.0);
         assert_eq!(shares(&[f64::NEG_INFINITY; 2]), None);
     }
 }

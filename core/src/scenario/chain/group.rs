@@ -25,7 +25,8 @@ pub(super) fn line(text: &str, place: usize) -> usize {
 
 /// The text of a file.
 pub(super) fn text(bytes: &[u8]) -> Result<&str, ChainError> {
-    let text = std::str::from_utf8(bytes).map_err(|error| whole(ScenarioError::NotText { offset: error.valid_up_to() }))?;
+    let text =
+        std::str::from_utf8(bytes).map_err(|error| whole(ScenarioError::NotText { offset: error.valid_up_to() }))?;
     Ok(text.strip_prefix('\u{feff}').unwrap_or(text))
 }
 

@@ -124,16 +124,21 @@ impl ChainPlan {
 
 /// The true rods: distal backbones run inside proximal ones.
 fn rods(scenario: &ChainScenario, truths: &[TrueRobot]) -> Vec<Rod> {
-    let tubes: Vec<(f64, f64)> = scenario.segments.iter().map(|segment| {
-        let robot = &segment.alone.scenario().robot;
-        (robot.primary.bending_stiffness(), robot.secondary.bending_stiffness())
-    }).collect();
+    let tubes: Vec<(f64, f64)> = scenario
+        .segments
+        .iter()
+        .map(|segment| {
+            let robot = &segment.alone.scenario().robot;
+            (robot.primary.bending_stiffness(), robot.secondary.bending_stiffness())
+        })
+        .collect();
     let each = scenario.segments.iter().zip(truths).zip(stiffnesses(&tubes));
     each.map(|((segment, truth), bending_stiffness)| Rod {
         length: truth.segment().length,
         bending_stiffness,
         torsion: segment.torsion,
-    }).collect()
+    })
+    .collect()
 }
 
 fn plane(contact: &ChainContact, robot: &Robot) -> Plane {

@@ -65,7 +65,11 @@ impl ChainScenario {
         if segments.is_empty() {
             return Err(top.missing("segment", "one table [[segment]] for each segment, from the base"));
         }
-        let segments = segments.iter().enumerate().map(|(place, group)| segment(group, place, &common, end)).collect::<Result<Vec<_>, _>>()?;
+        let segments = segments
+            .iter()
+            .enumerate()
+            .map(|(place, group)| segment(group, place, &common, end))
+            .collect::<Result<Vec<_>, _>>()?;
         let groups = top.tables("contact", MOST)?;
         let contacts = groups.iter().map(|group| contact(group, &segments)).collect::<Result<Vec<_>, _>>()?;
         for (place, contact) in contacts.iter().enumerate() {
@@ -127,7 +131,8 @@ fn smd(top: &Group, common: &mut Table) -> Result<Option<Smd>, ChainError> {
         let allowed = Allowed::Need(if quantity == Quantity::Length { "0 m or more" } else { "0 rad or more" });
         *value = number.ok_or_else(|| top.refuse_at(["detection", key], &given, allowed))?;
     }
-    let names = detection.entry("detectors").or_insert_with(|| Toml::Array(["fcd", "cusum", "smd"].map(Into::into).into()));
+    let names =
+        detection.entry("detectors").or_insert_with(|| Toml::Array(["fcd", "cusum", "smd"].map(Into::into).into()));
     let refused = |names: &Toml| top.refuse_at(["detection", "detectors"], names, Allowed::Need(DETECTORS));
     let Some(list) = names.as_array_mut() else { return Err(refused(names)) };
     if list.iter().any(|name| name.as_str() == Some("jfd")) {
@@ -194,7 +199,11 @@ fn contact(group: &Group, segments: &[ChainSegment]) -> Result<ChainContact, Cha
     let length = own.length;
     let at = match (group.has("disk"), group.has("at")) {
         (true, false) if own.disks.is_empty() => {
-            return Err(group.refuse_as_written("disk", Quantity::Count, Allowed::Need("at: its segment has no spacer disks")));
+            return Err(group.refuse_as_written(
+                "disk",
+                Quantity::Count,
+                Allowed::Need("at: its segment has no spacer disks"),
+            ));
         }
         (true, false) => own.disks[group.whole("disk", 1, own.disks.len())? - 1],
         (false, true) => group.number("at", Quantity::Length, Allowed::Number, None)?,
