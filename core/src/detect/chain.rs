@@ -17,8 +17,8 @@ use super::statistic::Method;
 use crate::model::chain::Torsion;
 use crate::record::Recording;
 use crate::record::chain::ChainRecording;
-use crate::scenario::ChainScenario;
 use crate::scenario::chain::{Smd, Tracked};
+use crate::scenario::{ChainScenario, Threshold};
 
 pub use contacts::{Along, ChainContactFound, ChainEstimate};
 pub use relative::relative;
@@ -60,12 +60,21 @@ pub struct ChainSettings {
 }
 
 impl ChainSettings {
-    /// Those of an experiment.
+    /// Those of an experiment. Thresholds of likelihood ratios are raised by the logarithm of the number of segments, each of which can raise a false
+    /// alarm.
     #[must_use]
     pub fn of(scenario: &ChainScenario) -> Self {
         let mut segments: Vec<Settings> =
             scenario.segments.iter().map(|segment| Settings::of(&segment.alone)).collect();
         let methods = segments.first().map_or_else(Vec::new, |first| first.thresholds.detectors.iter().collect());
+        // The false alarms that a threshold is meant for are those of the whole robot.
+        let more = libm::log(segments.len() as f64);
+        for settings in &mut segments {
+            for method in [Method::Cusum, Method::Glr] {
+                let threshold = settings.thresholds.of_mut(method);
+                *threshold = threshold.value().map_or(*threshold, |value| Threshold::On(value + more));
+            }
+        }
         if scenario.smd.is_some() {
             // The distance between the screw axes is that of their points nearest to the end disk: the centrodes.
             segments.iter_mut().for_each(|settings| settings.thresholds.detectors.set(Method::FcdConsistent, true));
