@@ -1,10 +1,11 @@
 //! What the run came to: a sentence, and figures in a table.
 
-use egui::{Align2, ScrollArea, Sense, Ui, vec2};
+use egui::{Align2, Sense, Ui, vec2};
 
 use crate::app::fonts;
 use crate::app::memo::placed::Placed;
 use crate::app::memo::recorded::Recorded;
+use crate::app::panels::sheet;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 use crate::app::words::story::{self, Figure};
@@ -18,7 +19,7 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
         Some(recorded) => (log::words(run, recorded), log::figures(run)),
         None => (story::words(run), story::figures(run)),
     };
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+    sheet::scrolled(ui, |ui| {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());

@@ -6,6 +6,7 @@ use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, Ui, Widg
 
 use crate::app::controls::control::Scale;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::rail::Rail;
 
 /// Radius of a handle, points.
@@ -107,6 +108,7 @@ fn held(ui: &Ui, response: &Response) -> bool {
         Some(false) => {
             let moved = vec2(0.0, response.drag_delta().y);
             ui.scroll_with_delta_animation(moved, ScrollAnimation::none());
+            finger::pass(ui);
             false
         }
         None if !ui.input(|input| input.any_touches()) => true,

@@ -6,6 +6,7 @@ use crate::app::charts::plots::axis::Axis;
 use crate::app::charts::plots::{Touch, View};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use centrode_core::chart::Style;
 use centrode_core::run::Sample;
 use egui::text::LayoutJob;
@@ -154,6 +155,7 @@ impl View<'_> {
         }
         if response.dragged() && self.state.touch == Touch::Scrolls {
             ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
+            finger::pass(ui);
             return;
         }
         let pressed = !touching && response.is_pointer_button_down_on();

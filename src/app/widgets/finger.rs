@@ -1,0 +1,45 @@
+//! What fingers need: targets that are large enough, and a word of who a drag is for.
+
+use egui::{Id, Rect, Ui, Vec2, vec2};
+
+use crate::app::controls::row::TARGET;
+
+/// Lets everything in `ui` be large enough for a finger.
+pub fn welcome(ui: &mut Ui) {
+    ui.spacing_mut().interact_size = Vec2::splat(TARGET);
+}
+
+/// Whether fingers work what is shown here.
+#[must_use]
+pub fn is_welcome(ui: &Ui) -> bool {
+    ui.spacing().interact_size.y >= TARGET
+}
+
+/// A height or width, or what a finger needs where there are fingers.
+#[must_use]
+pub fn at_least(ui: &Ui, size: f32) -> f32 {
+    if is_welcome(ui) { size.max(TARGET) } else { size }
+}
+
+/// A place, and around it what a finger needs where there are fingers.
+#[must_use]
+pub fn around(ui: &Ui, rect: Rect) -> Rect {
+    Rect::from_center_size(rect.center(), vec2(at_least(ui, rect.width()), at_least(ui, rect.height())))
+}
+
+fn id() -> Id {
+    Id::unique("finger")
+}
+
+/// Says that a widget leaves the drag of this frame to whatever scrolls around it.
+pub fn pass(ui: &Ui) {
+    let frame = ui.ctx().cumulative_frame_nr();
+    ui.data_mut(|data| data.insert_temp(id(), frame));
+}
+
+/// Whether a widget has done so.
+#[must_use]
+pub fn is_passed(ui: &Ui) -> bool {
+    let frame = ui.ctx().cumulative_frame_nr();
+    ui.data(|data| data.get_temp::<u64>(id())) == Some(frame)
+}
