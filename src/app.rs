@@ -302,9 +302,7 @@ impl App {
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
-        if layout.sheet {
-            finger::welcome(ui);
-        }
+        finger::welcome(ui, layout.sheet);
         let (cursor, covered) = (self.cursor(), self.is_covered());
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();

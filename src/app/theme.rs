@@ -3,7 +3,7 @@
 //! Colour means something: those of the signals come from the scene's palette and are the same everywhere. What can be
 //! touched has the one accent, which no signal uses; everything else is grey.
 
-use egui::{Color32, CornerRadius, Margin, Shadow, Stroke, vec2};
+use egui::{Color32, CornerRadius, Margin, Shadow, Stroke, Vec2, vec2};
 use serde::{Deserialize, Serialize};
 
 use crate::app::fonts;
@@ -14,6 +14,8 @@ use crate::scene::palette::{Palette, Shade};
 pub const ROUND: u8 = 10;
 /// Space between cards, points.
 pub const GAP: f32 = 8.0;
+/// The least size of what a mouse works, points.
+pub const MOUSE: Vec2 = vec2(32.0, 28.0);
 
 /// Which theme is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -215,7 +217,7 @@ pub fn install(ctx: &egui::Context) {
         style.drag_value_text_style = egui::TextStyle::Body;
         style.spacing.item_spacing = vec2(8.0, 6.0);
         style.spacing.button_padding = vec2(10.0, 5.0);
-        style.spacing.interact_size = vec2(32.0, 28.0);
+        style.spacing.interact_size = MOUSE;
         style.spacing.menu_margin = Margin::same(6);
         style.spacing.window_margin = Margin::same(20);
         style.spacing.tooltip_width = 280.0;

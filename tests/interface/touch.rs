@@ -1,7 +1,8 @@
 //! The page in a hand: the sheet, targets for fingers, and whom a finger belongs to.
 
+use crate::detectors::{LINK, go};
 use crate::stages::show;
-use crate::support::{LOW, PHONE, Page, app, click, page_of, slide, slider};
+use crate::support::{LOW, PHONE, Page, app, click, finish, page_of, slide, slider};
 use centrode::app::layout::sheet::Stop;
 use centrode::app::stages::stage::Stage;
 use centrode::app::state::Tab;
@@ -103,7 +104,16 @@ fn a_finger_hits_everything_in_every_view() {
             page.state_mut().as_mut().expect("built").go(&format!("preset=bench&view={}", stage.key()));
             page.run_steps(4);
             assert_eq!(app(&page).state().stage, stage);
+            // What is found brings buttons of its own.
+            if size == SMALL && stage.key() != "detectors" {
+                finish(&mut page);
+            }
             hits(&page, &at(stage.name()), &mut small);
+        }
+        if size == SMALL {
+            go(&mut page, &LINK.replace("repeats=74", "repeats=20"));
+            finish(&mut page);
+            hits(&page, &at("compared"), &mut small);
         }
         show(&mut page, "Robot");
         click(&mut page, "Controls");

@@ -168,7 +168,8 @@ pub fn scrolled<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     let dragged = ui.ctx().is_being_dragged(output.id.with("area")) || finger::is_passed(ui);
     let down = ui.input(|input| input.pointer.delta().y);
     let most = output.content_size.y - output.inner_rect.height();
-    let ended = if down > 0.0 { output.state.clamped_offset().y <= 0.0 } else { output.state.clamped_offset().y >= most - 0.5 };
+    let ended =
+        if down > 0.0 { output.state.clamped_offset().y <= 0.0 } else { output.state.clamped_offset().y >= most - 0.5 };
     if dragged && ended {
         hand_over(ui, down);
     }

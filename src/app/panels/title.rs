@@ -11,9 +11,9 @@ use crate::app::panels::gallery::Gallery;
 use crate::app::panels::{menu, share};
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
-use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
+use crate::app::widgets::{finger, focus};
 use centrode_core::scenario::preset::Preset;
 
 /// A preset's name as the page writes it.
@@ -38,8 +38,9 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out:
     if rect.width() > 240.0 {
         left.x = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink).right() + 14.0;
     }
+    let high = finger::at_least(ui, 30.0).min(rect.height());
     let room = (rect.right() - left.x).clamp(72.0, 240.0);
-    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
+    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -0.5 * high), vec2(room, high));
     presets(ui, place, state, gallery, out);
 }
 
@@ -146,7 +147,7 @@ pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), ch
     job.append(title, 0.0, format(fonts::strong(13.0), if chosen { theme.accent } else { theme.ink }));
     job.append(&format!("\n{}", summary), 0.0, format(fonts::regular(12.0), theme.dim));
     let galley = ui.painter().layout_job(job);
-    let size = vec2(ui.available_width(), galley.size().y + 12.0);
+    let size = vec2(ui.available_width(), finger::at_least(ui, galley.size().y + 12.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), chosen, title));
     if response.hovered() || response.has_focus() {

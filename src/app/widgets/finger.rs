@@ -3,10 +3,15 @@
 use egui::{Id, Rect, Ui, Vec2, vec2};
 
 use crate::app::controls::row::TARGET;
+use crate::app::theme::MOUSE;
 
-/// Lets everything in `ui` be large enough for a finger.
-pub fn welcome(ui: &mut Ui) {
-    ui.spacing_mut().interact_size = Vec2::splat(TARGET);
+/// Lets everything from now on be large enough for a finger, menus and windows included, or as large as a mouse needs it.
+pub fn welcome(ui: &mut Ui, fingers: bool) {
+    let size = if fingers { Vec2::splat(TARGET) } else { MOUSE };
+    ui.spacing_mut().interact_size = size;
+    if ui.ctx().style_of(ui.theme()).spacing.interact_size != size {
+        ui.ctx().all_styles_mut(|style| style.spacing.interact_size = size);
+    }
 }
 
 /// Whether fingers work what is shown here.

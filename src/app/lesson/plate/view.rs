@@ -20,7 +20,7 @@ const MIDDLE: DVec2 = dvec2(0.0, -0.3);
 /// How far the handle of an arrow is from its point.
 const HANDLE: f64 = 0.62;
 /// Size of what is dragged, points.
-const GRIP: f32 = 34.0;
+const GRIP: f32 = 44.0;
 /// Names of both points.
 pub const NAMES: [&str; 2] = ["A", "B"];
 
