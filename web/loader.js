@@ -17,6 +17,8 @@ import { studies } from "./studies.js";
 
 const { settings, notices } = readQuery(location.search);
 const host = messages(settings.origins);
+/// The program, once it is there.
+let running = null;
 let failed = false;
 
 function fail(show, ...args) {
@@ -120,12 +122,13 @@ async function startOnSome(core) {
 }
 
 async function main() {
-  passThrough();
+  passThrough(() => running);
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
+  running = core;
   hooks.study = studies(core, module);
   const kept = logs(core, module);
   hooks.choose = () => choose(core, kept);

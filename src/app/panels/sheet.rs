@@ -88,6 +88,7 @@ pub fn sheet(ui: &Ui, handle: Option<&Handle>, Sheet { controls, at }: Sheet) {
     }
     // Tabs, too, are taps on the head.
     let strip = if controls { head } else { head.union(tab_strip(below).0) };
+    finger::claim(ui, strip);
     let response = ui.interact(strip, ui.scope_id().with("head"), Sense::drag());
     drawn(ui, &response, handle);
 }
@@ -102,6 +103,7 @@ fn drawn(ui: &Ui, response: &Response, handle: &Handle) {
 /// Shows the handle, over all that it reaches over.
 pub fn handle(ui: &Ui, handle: &Handle, stop: Stop, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
+    finger::claim(ui, handle.grip);
     let response = ui.interact(handle.grip, ui.scope_id().with("handle"), Sense::click_and_drag());
     let response = response.on_hover_and_drag_cursor(if handle.beside {
         CursorIcon::ResizeHorizontal
@@ -168,6 +170,9 @@ pub fn scrolled<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     let dragged = ui.ctx().is_being_dragged(output.id.with("area")) || finger::is_passed(ui);
     let down = ui.input(|input| input.pointer.delta().y);
     let most = output.content_size.y - output.inner_rect.height();
+    if most > 0.5 {
+        finger::claim(ui, output.inner_rect);
+    }
     let ended =
         if down > 0.0 { output.state.clamped_offset().y <= 0.0 } else { output.state.clamped_offset().y >= most - 0.5 };
     if dragged && ended {

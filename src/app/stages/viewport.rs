@@ -153,6 +153,7 @@ pub fn viewport(
     let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(KEYS));
+    finger::claim(ui, rect);
     state.focused = response.has_focus();
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);

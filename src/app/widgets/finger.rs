@@ -1,6 +1,6 @@
 //! What fingers need: targets that are large enough, and a word of who a drag is for.
 
-use egui::{Id, Rect, Ui, Vec2, vec2};
+use egui::{Context, Id, Pos2, Rect, Sense, Ui, Vec2, vec2};
 
 use crate::app::controls::row::TARGET;
 use crate::app::theme::MOUSE;
@@ -32,6 +32,12 @@ pub fn around(ui: &Ui, rect: Rect) -> Rect {
     Rect::from_center_size(rect.center(), vec2(at_least(ui, rect.width()), at_least(ui, rect.height())))
 }
 
+/// How a place of a chart is picked: a finger taps, for its drags scroll.
+#[must_use]
+pub fn picks(ui: &Ui) -> Sense {
+    if is_welcome(ui) { Sense::CLICK } else { Sense::CLICK | Sense::DRAG }
+}
+
 fn id() -> Id {
     Id::unique("finger")
 }
@@ -47,4 +53,34 @@ pub fn pass(ui: &Ui) {
 pub fn is_passed(ui: &Ui) -> bool {
     let frame = ui.ctx().cumulative_frame_nr();
     ui.data(|data| data.get_temp::<u64>(id())) == Some(frame)
+}
+
+/// Where a drag is for what stands there, in the last pass.
+#[derive(Debug, Clone, Default)]
+struct Claims {
+    pass: u64,
+    rects: Vec<Rect>,
+}
+
+/// Says that a finger that comes down in `rect` is for what stands there, whichever way it goes: it turns, moves or scrolls that.
+pub fn claim(ui: &Ui, rect: Rect) {
+    let (pass, rect) = (ui.ctx().cumulative_pass_nr(), rect.intersect(ui.clip_rect()));
+    ui.data_mut(|data| {
+        let claims = data.get_temp_mut_or_default::<Claims>(id());
+        if claims.pass != pass {
+            *claims = Claims { pass, rects: Vec::new() };
+        }
+        claims.rects.push(rect);
+    });
+}
+
+/// Whether a finger that comes down here is for what stands there. Elsewhere a page around this one may scroll.
+#[must_use]
+pub fn is_claimed(ctx: &Context, at: Pos2) -> bool {
+    let page = egui::LayerId::background();
+    ctx.layer_id_at(at).is_some_and(|layer| layer != page)
+        || ctx.data(|data| {
+            let claims = data.get_temp::<Claims>(id()).unwrap_or_default();
+            claims.rects.iter().any(|rect| rect.contains(at))
+        })
 }

@@ -48,6 +48,7 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
     let id = ui.make_persistent_id(("slider", slider.key));
     let response =
         ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    finger::claim(ui, rect);
     let mut asked = None;
     if let (true, Some(pointer)) = (held(ui, &response), response.interact_pointer_pos()) {
         let (left, right) = way(rect);

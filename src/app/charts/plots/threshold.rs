@@ -62,6 +62,9 @@ impl View<'_> {
         let zone = Rect::from_x_y_ranges(data.x_range(), y - reach..=y + reach).intersect(data.expand(2.0));
         let sense = if on { Sense::DRAG } else { Sense::hover() };
         let response = ui.interact(zone, id, sense);
+        if on {
+            finger::claim(ui, zone);
+        }
         let held = response.dragged();
         if on && (response.hovered() || held) {
             ui.set_cursor_icon(CursorIcon::ResizeVertical);
