@@ -65,7 +65,11 @@ export function passThrough(core) {
 
   // The interface listens further inside. What it does not hear it neither acts on nor keeps from the page around.
   const passWhere = (ours, names) => {
-    const pass = (event) => ours() || event.stopImmediatePropagation();
+    const pass = (event) => {
+      if (!ours()) return event.stopImmediatePropagation();
+      // The interface would keep the browser from what it is at already, which is told as an error.
+      if (!event.cancelable) event.preventDefault = () => {};
+    };
     for (const name of names) addEventListener(name, pass, { capture: true, passive: true });
   };
   passWhere(taken, ["wheel", "gesturestart", "gesturechange", "gestureend"]);

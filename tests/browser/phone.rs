@@ -46,8 +46,10 @@ fn is_whole(page: &mut Page, size: [u32; 2], ratio: f64) {
             .collect();
         off.is_empty().then_some(())
     });
-    let picture = page.picture();
+    // A canvas of another size is blank until it has been painted.
+    let picture = page.wait("a picture", |page| Some(page.picture()).filter(|picture| picture.colours(Area::ALL) > 99));
     assert_eq!([picture.width, picture.height], wanted.map(|side| side as usize));
+    page.frames();
 }
 
 #[test]
@@ -72,6 +74,12 @@ fn every_size_is_drawn_to_the_pixel_and_nothing_is_off_the_screen() {
     keep(&mut page, "390x844-true-2");
 }
 
+fn tap(page: &mut Page, role: &str, label: &str) {
+    let at = page.widget(role, label).at(0.5);
+    page.tap(at);
+    page.frames();
+}
+
 /// The middle of the 3D view.
 fn view(page: &mut Page) -> [f64; 2] {
     let [x, y, width, height] = page.widget("Canvas", "3D view").bounds.expect("a place");
@@ -92,7 +100,7 @@ fn a_finger_turns_the_robot_scrolls_the_controls_and_draws_the_sheet_out() {
     let turned = page.picture();
     assert!(before.changed(&turned, Area(0.0, 0.15, 1.0, 0.45)) > 2000, "it has been turned");
     assert_eq!(page.eval("scrollY"), json!(0));
-    page.click("Button", "Controls");
+    tap(&mut page, "Button", "Controls");
     let row = page.widget("Slider", "Contact time").at(0.5);
     let label = [row[0], row[1] - 44.0];
     let edge = top(&mut page, "Slider", "Height of the sheet");
@@ -110,11 +118,10 @@ fn a_finger_turns_the_robot_scrolls_the_controls_and_draws_the_sheet_out() {
 #[test]
 fn a_field_brings_up_its_keyboard() {
     let mut page = open(Options { size: [390, 844], ..Options::default() }, "?test#preset=bench&t=6.4");
-    page.click("Button", "Controls");
+    tap(&mut page, "Button", "Controls");
     page.frames();
-    for (field, keyboard) in
-        [("Contact time value", "decimal"), ("Contact disk value", "text"), ("Seed value", "decimal")]
-    {
+    // A time can also be typed as a bend, in words; a count cannot.
+    for (field, keyboard) in [("Contact time value", "text"), ("Filter length N value", "decimal")] {
         let at = loop {
             let at = page.widget("TextInput", field).at(0.5);
             if at[1] < 650.0 {
@@ -133,7 +140,7 @@ fn a_field_brings_up_its_keyboard() {
 }
 
 /// The example host page with a frame that shows this, longer than the screen.
-fn host(query: &str) -> Page {
+fn host(query: &str, fragment: &str) -> Page {
     let options = Options { size: [390, 844], phone: true, still: true, ..Options::default() };
     let mut page = Page::visit(Renderer::WebGl, "?test", options);
     let base = page.eval("location.origin + location.pathname");
@@ -141,7 +148,7 @@ fn host(query: &str) -> Page {
     page.browse(&format!("{base}examples/embed.html"));
     page.eval(&format!(
         "document.body.style.minHeight = '3000px'; frame.style.cssText = 'width: 100%; height: 600px'; frame.src = {}; 1",
-        json!(format!("{base}{query}"))
+        json!(format!("{base}{query}{fragment}"))
     ));
     page.wait("the frame", |page| {
         let ready = format!(
@@ -175,7 +182,7 @@ fn time(page: &mut Page) -> f64 {
 
 #[test]
 fn a_finger_on_plots_in_a_frame_scrolls_the_host() {
-    let mut page = host("?embed=plots&test");
+    let mut page = host("?embed=plots&test", "#preset=bench&t=5");
     // Between the handles; nothing there moves up and down.
     let scrolls = |page: &mut Page, what: &str| {
         let at = inside(page, 0.7, 0.28);
@@ -198,7 +205,7 @@ fn a_finger_on_plots_in_a_frame_scrolls_the_host() {
 
 #[test]
 fn a_finger_in_a_frames_3d_view_turns_the_robot_once_it_was_tapped() {
-    let mut page = host("?embed=robot&test");
+    let mut page = host("?embed=robot&test", "#preset=bench&t=5");
     let at = inside(&mut page, 0.4, 0.5);
     page.swipe(at, [at[0], at[1] - 160.0]);
     page.wait("the host to scroll", |page| page.eval("scrollY").as_f64().filter(|scrolled| *scrolled > 60.0));

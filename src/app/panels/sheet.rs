@@ -1,6 +1,7 @@
 //! The sheet of a small screen: drawn out by its handle or its head, by keys, and past the ends of what scrolls in it.
 
 use egui::accesskit::{Action, ActionData};
+use egui::scroll_area::{DragScroll, ScrollSource};
 use egui::{
     Align2, Context, CursorIcon, EventFilter, Id, Key, Rect, Response, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2,
 };
@@ -40,8 +41,8 @@ fn drag(ctx: &Context) -> Drag {
 
 /// Draws the sheet out by so many points.
 fn pull(ui: &Ui, points: f32) {
-    // A pass that is done again has had its pull already.
-    if ui.ctx().current_pass_index() == 0 {
+    // A pass that is done again has had its pull already, and on the way to where a finger comes down nothing is pulled.
+    if ui.ctx().current_pass_index() == 0 && !ui.input(|input| input.pointer.any_pressed()) {
         let drag = drag(ui.ctx());
         let pulled = Some(drag.pulled.unwrap_or_default() + points);
         ui.data_mut(|data| data.insert_temp(id(), Drag { pulled, ..drag }));
@@ -166,7 +167,12 @@ fn by_key(ui: &Ui, response: &Response, stop: Stop) -> Option<Stop> {
 
 /// Shows what scrolls. On a sheet that comes from below, a finger that goes on past an end takes the sheet along.
 pub fn scrolled<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
-    let output = ScrollArea::vertical().auto_shrink(false).show(ui, content);
+    let mut area = ScrollArea::vertical().auto_shrink(false);
+    if finger::is_welcome(ui) {
+        // Otherwise the very first finger is not known for one.
+        area = area.scroll_source(ScrollSource { drag: DragScroll::Always, ..ScrollSource::ALL });
+    }
+    let output = area.show(ui, content);
     let dragged = ui.ctx().is_being_dragged(output.id.with("area")) || finger::is_passed(ui);
     let down = ui.input(|input| input.pointer.delta().y);
     let most = output.content_size.y - output.inner_rect.height();

@@ -80,6 +80,9 @@ pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
     }
 }
 
+/// The highest that the box of a menu is painted, points.
+const BOX: f32 = 36.0;
+
 /// A button with a text that opens a menu.
 fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Response {
     let response =
@@ -89,7 +92,9 @@ fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Re
     let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
     let edge = if response.has_focus() { theme.accent } else { theme.faint };
-    ui.painter().rect(rect, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
+    // A finger needs more than the eye.
+    let shown = rect.shrink2(vec2(0.0, (0.5 * (rect.height() - BOX)).max(0.0)));
+    ui.painter().rect(shown, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
     ui.painter_at(rect.with_max_x(rect.right() - 22.0)).text(
         rect.left_center() + vec2(10.0, 0.0),
         Align2::LEFT_CENTER,
