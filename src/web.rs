@@ -223,6 +223,12 @@ fn repaint() {
     });
 }
 
+/// Paints the page once more.
+#[wasm_bindgen]
+pub fn paint() {
+    repaint();
+}
+
 struct Shell {
     app: App,
     last_report: String,

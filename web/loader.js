@@ -87,6 +87,15 @@ function leaveToElements(canvas) {
   }
 }
 
+/// A screen with other pixels: the canvas is cleared for them, and who is paused would not paint it.
+function paintOnOtherScreens(core) {
+  const change = () => {
+    core.paint();
+    paintOnOtherScreens(core);
+  };
+  matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true });
+}
+
 async function startOnSome(core) {
   // "auto" falls back by itself where no WebGPU adapter exists, but not when the adapter then refuses a device.
   const attempts = { auto: ["auto", "webgl"], webgpu: ["webgpu", "webgl"], webgl: ["webgl", "webgpu"] }[settings.renderer];
@@ -143,6 +152,7 @@ async function main() {
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (!(await startOnSome(core))) return;
+  paintOnOtherScreens(core);
   host?.start(core);
   keepOffline();
   showNotices(notices, () => document.getElementById("canvas").focus());

@@ -1,7 +1,7 @@
 //! What lies over every plot: a title with read-outs, the playback position, and the values under the pointer.
 
 use crate::app::charts::notation::{job, note};
-use crate::app::charts::paint::Place;
+use crate::app::charts::paint::{Place, dashed};
 use crate::app::charts::plots::axis::Axis;
 use crate::app::charts::plots::{Touch, View};
 use crate::app::command::Command;
@@ -123,7 +123,10 @@ impl Frame {
 /// Draws a line in a style.
 fn stroke_line(painter: &Painter, line: Vec<Pos2>, (color, weight): (Color32, f32), style: Style) {
     match style {
-        Style::Dashed => painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, color), 4.0, 3.0)),
+        style if style.dash().is_some() => {
+            let dash = style.dash().unwrap_or_default().map(|length| 8.0 * length as f32);
+            painter.extend(dashed(&line, Stroke::new(weight, color), dash));
+        }
         Style::Thin => drop(painter.line(line, Stroke::new(1.1 * weight, color))),
         _ => drop(painter.line(line, Stroke::new(1.6 * weight, color))),
     }
