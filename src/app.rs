@@ -121,6 +121,9 @@ impl App {
     #[must_use]
     pub fn new(ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>, host: Host) -> Self {
         theme::install(ctx);
+        if host.prefers_reduced_motion {
+            theme::hold_still(ctx);
+        }
         let state = State::default();
         ctx.set_theme(state.theme.preference());
         let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
@@ -149,7 +152,7 @@ impl App {
             listener: host.hosted.then(Listener::default),
         };
         // Nothing moves in the tuning that playback would show, and what moves by itself is not welcome to all.
-        app.state.playing = host.embed != Some(Embed::Tuning) && !(untouched && host.prefers_reduced_motion);
+        app.state.playing = host.embed != Some(Embed::Tuning) && !host.prefers_reduced_motion;
         app.go(&host.fragment);
         app
     }
@@ -302,6 +305,9 @@ impl App {
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
+        // A stage takes the place of the tabs, and there is no sheet.
+        let drawn = self.state.stage == Stage::Robot || layout.controls.is_some();
+        let handle = layout.handle.filter(|_| drawn);
         finger::welcome(ui, layout.sheet);
         let (cursor, covered) = (self.cursor(), self.is_covered());
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
@@ -348,7 +354,7 @@ impl App {
                 lesson::menu::menu(ui, (layout.tools, layout.sheet), (lesson, state.lesson.is_some()), out);
             });
         }
-        panels::sheet::sheet(ui, layout.handle.as_ref(), sheet);
+        panels::sheet::sheet(ui, handle.as_ref(), sheet);
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
                 Refusal::Scenario(refused) => refusal::told(refused),
@@ -441,7 +447,7 @@ impl App {
                 show(ui, state.tab, below, out);
             }
         }
-        if let Some(handle) = &layout.handle {
+        if let Some(handle) = &handle {
             panels::sheet::handle(ui, handle, state.stop, out);
         }
         let by_key = cover.update(ui, covered);

@@ -87,10 +87,15 @@ function leaveToElements(canvas) {
   }
 }
 
-/// A screen with other pixels: the canvas is cleared for them, and who is paused would not paint it.
+/// A screen with other pixels: the canvas is cleared for them, and who is paused would not paint it. The interface learns of the pixels in
+/// one frame and lays out by them in the next.
 function paintOnOtherScreens(core) {
-  const change = () => {
+  const paint = (times) => {
     core.paint();
+    if (times > 1) requestAnimationFrame(() => paint(times - 1));
+  };
+  const change = () => {
+    paint(4);
     paintOnOtherScreens(core);
   };
   matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true });

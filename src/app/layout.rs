@@ -270,7 +270,7 @@ impl Layout {
         }
         let mut rest = Cut(if beside { view } else { view.union(lower) });
         let lower = self.handle.map_or(lower, |handle| handle.sheet);
-        let lesson = if beside { lower } else { rest.bottom(need.min(0.62 * rest.0.height())) };
+        let lesson = if beside { lower } else { rest.bottom(need.min(0.7 * rest.0.height())) };
         let one = |wanted: bool| wanted.then_some(rest.0);
         let open = self.controls.is_some();
         let (plots, robot) = (focus == Focus::Plots && !open, focus == Focus::Robot && !open);

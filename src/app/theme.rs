@@ -136,7 +136,7 @@ impl Theme {
         Self {
             shade,
             dark,
-            weight: if shade == Shade::Projector { 1.6 } else { 1.0 },
+            weight: palette.weight,
             model: color(palette.model),
             constrained: color(palette.constrained),
             sensor: color(palette.sensor),
@@ -156,6 +156,12 @@ impl Theme {
             on_accent: hex(0xFFFFFF, 0x14101F),
             error: three(0xB3203E, 0xFF8296, 0x9A1532),
         }
+    }
+
+    /// A line that is so wide on a screen, points.
+    #[must_use]
+    pub fn line(&self, width: f32, color: Color32) -> Stroke {
+        Stroke::new(self.weight * width, color)
     }
 
     fn visuals(&self) -> egui::Visuals {
@@ -226,6 +232,16 @@ pub fn install(ctx: &egui::Context) {
         style.explanation_tooltips = false;
         ctx.set_style_of(theme, style);
     }
+}
+
+/// Leaves out what moves on its way from one state to another, and what goes on scrolling once a finger has let go.
+pub fn hold_still(ctx: &egui::Context) {
+    ctx.all_styles_mut(|style| {
+        style.animation_time = 0.0;
+        style.scroll_animation = egui::style::ScrollAnimation::none();
+        style.spacing.scroll.kinetic.decay_time = 0.0;
+        style.spacing.scroll.kinetic.rubber_band = false;
+    });
 }
 
 /// How many times larger everything is for a projector.

@@ -59,6 +59,8 @@ pub struct Palette {
     pub glow: Color,
     /// Darkness of the shadows on the floor, 0..1.
     pub ground_shadow: f32,
+    /// How many times thicker lines are than on a screen.
+    pub weight: f32,
 }
 
 impl Palette {
@@ -83,6 +85,7 @@ impl Palette {
         grid: Color::rgba(0.16, 0.22, 0.30, 0.26),
         glow: Color::rgba(1.0, 1.0, 1.0, 0.0),
         ground_shadow: 0.24,
+        weight: 1.0,
     };
 
     /// For a dark background.
@@ -106,6 +109,7 @@ impl Palette {
         grid: Color::rgba(0.75, 0.84, 0.95, 0.22),
         glow: Color::rgba(0.62, 0.72, 0.85, 0.10),
         ground_shadow: 0.55,
+        weight: 1.0,
     };
 
     /// For a projector, which washes colours out: every signal has at least five times less light than the white behind it.
@@ -121,6 +125,7 @@ impl Palette {
         stone: Color::hex(0x57524A),
         ink: Color::hex(0x000000),
         ink_dim: Color::hex(0x3C444D),
+        weight: 1.6,
         ..Self::LIGHT
     };
 

@@ -272,3 +272,42 @@ fn a_finger_that_scrolls_the_controls_changes_none() {
     finger(&mut page, start + vec2(60.0, 0.0), TouchPhase::End);
     assert_ne!(app(&page).state().scenario, before);
 }
+
+/// Where every widget is.
+fn places(page: &Page) -> Vec<String> {
+    let nodes = page.root().children_recursive();
+    nodes.map(|node| format!("{:?} {:?}", node.accesskit_node().label(), node.accesskit_node().raw_bounds())).collect()
+}
+
+#[test]
+fn who_wants_less_motion_sees_nothing_move_by_itself() {
+    let mut page = page_of(PHONE);
+    let time = app(&page).state().time;
+    let wait = |page: &mut Page, what: &str| {
+        page.run_steps(2);
+        let before = places(page);
+        page.run_steps(12);
+        assert!(before == places(page), "{what} moves");
+    };
+    slide(&mut page, SHEET, 2.0);
+    wait(&mut page, "the sheet");
+    for button in ["Controls", "Contact", "ξ2 (centrode) on", "Help"] {
+        page.get_by_label(button).click();
+        wait(&mut page, button);
+    }
+    page.key_press(Key::Escape);
+    slide(&mut page, SHEET, 1.0);
+    let at = slider(&page, "Contact time").rect().left_top() + vec2(4.0, -20.0);
+    // A finger that flings.
+    finger(&mut page, at, TouchPhase::Start);
+    for i in 1..=4 {
+        finger(&mut page, at - vec2(0.0, 30.0 * i as f32), TouchPhase::Move);
+    }
+    finger(&mut page, at - vec2(0.0, 120.0), TouchPhase::End);
+    wait(&mut page, "what a finger let go");
+    page.state_mut().as_mut().expect("built").go("preset=disk-3");
+    wait(&mut page, "a link");
+    assert!(!app(&page).state().playing && app(&page).state().time != time + 1.0);
+    page.state_mut().as_mut().expect("built").go("tour=2");
+    wait(&mut page, "the tour");
+}

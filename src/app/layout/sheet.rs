@@ -114,7 +114,7 @@ impl Handle {
 
 /// Draws a sheet out from below in a room; gives what is left for the view, too.
 pub(super) fn below(room: Rect, sheet: Sheet) -> (Option<Rect>, Handle) {
-    let half = room.height() * if sheet.controls { 0.64 } else { 0.52 };
+    let half = room.height() * if sheet.controls { 0.64 } else { 0.56 };
     let lengths = [HEAD + TARGET + GAP, half, room.height() - GAP];
     let mut rest = Cut(room);
     let place = rest.bottom(Handle::length(lengths, sheet.at));

@@ -169,6 +169,8 @@ fn by_key(ui: &Ui, response: &Response, stop: Stop) -> Option<Stop> {
 pub fn scrolled<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     let mut area = ScrollArea::vertical().auto_shrink(false);
     if finger::is_welcome(ui) {
+        // Past its ends the sheet moves.
+        ui.spacing_mut().scroll.kinetic.rubber_band = false;
         // Otherwise the very first finger is not known for one.
         area = area.scroll_source(ScrollSource { drag: DragScroll::Always, ..ScrollSource::ALL });
     }

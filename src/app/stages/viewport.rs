@@ -126,7 +126,9 @@ impl ViewState {
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
         let options = ViewOptions { palette: Palette::of(shade), pulse, frozen, placed };
-        self.scene = Arc::new(view(run, trace, time, &options));
+        let mut scene = view(run, trace, time, &options);
+        scene.thicken(options.palette.weight);
+        self.scene = Arc::new(scene);
         self.version += 1;
         self.shown = Some(shown);
     }

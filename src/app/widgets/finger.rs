@@ -1,6 +1,6 @@
 //! What fingers need: targets that are large enough, and a word of who a drag is for.
 
-use egui::{Context, Id, Pos2, Rect, Sense, Ui, Vec2, vec2};
+use egui::{Context, Id, Pos2, Rect, Ui, Vec2, vec2};
 
 use crate::app::controls::row::TARGET;
 use crate::app::theme::MOUSE;
@@ -30,12 +30,6 @@ pub fn at_least(ui: &Ui, size: f32) -> f32 {
 #[must_use]
 pub fn around(ui: &Ui, rect: Rect) -> Rect {
     Rect::from_center_size(rect.center(), vec2(at_least(ui, rect.width()), at_least(ui, rect.height())))
-}
-
-/// How a place of a chart is picked: a finger taps, for its drags scroll.
-#[must_use]
-pub fn picks(ui: &Ui) -> Sense {
-    if is_welcome(ui) { Sense::CLICK } else { Sense::CLICK | Sense::DRAG }
 }
 
 fn id() -> Id {

@@ -47,7 +47,7 @@ fn estimator_look(word: &str) -> (Role, Style, &'static str) {
     match Estimator::ALL.iter().find(|estimator| estimator.word() == word) {
         Some(Estimator::Eq24) => (Role::Sensor, Style::Line, "Eq. 24"),
         Some(Estimator::Settled) => (Role::Sensor, Style::Dashed, "Eq. 24, settled"),
-        _ => (Role::Likelihood, Style::Line, "Posterior mean"),
+        _ => (Role::Likelihood, Style::DashDotted, "Posterior mean"),
     }
 }
 
@@ -138,7 +138,7 @@ pub fn errors(comparison: &Comparison) -> Panel {
         panel.intervals.push(Intervals { name: String::new(), role, ends: places.iter().map(at).collect() });
     }
     let bound = comparison.place_bounds.iter().map(|limit| [limit.since, limit.bound]).collect();
-    panel.series.push(Series::new(NO_ESTIMATE, Role::Bound, Style::Line, bound));
+    panel.series.push(Series::new(NO_ESTIMATE, Role::Bound, Style::Heavy, bound));
     panel
 }
 

@@ -177,7 +177,7 @@ impl View<'_> {
     pub fn cursor(&self, painter: &Painter, dots: &[(f64, Color32)]) {
         let Frame { data, theme, values, .. } = &self.frame;
         let x = painter.round_to_pixel_center(self.frame.time.at(self.cursor));
-        painter.vline(x, data.top()..=data.bottom() + 3.0, Stroke::new(1.5, theme.ink));
+        painter.vline(x, data.top()..=data.bottom() + 3.0, theme.line(1.5, theme.ink));
         let cap = [pos2(x - 4.5, data.top() - 5.0), pos2(x + 4.5, data.top() - 5.0), pos2(x, data.top() + 1.0)];
         painter.add(Shape::convex_polygon(cap.to_vec(), theme.ink, Stroke::NONE));
         for &(value, color) in dots {
@@ -194,7 +194,7 @@ impl View<'_> {
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let sample = self.run.sample_at(time);
         let x = painter.round_to_pixel_center(self.frame.time.at(sample.time));
-        painter.vline(x, data.y_range(), Stroke::new(1.0, theme.dim.gamma_multiply(0.8)));
+        painter.vline(x, data.y_range(), theme.line(1.0, theme.dim.gamma_multiply(0.8)));
         let mut text = vec![job(&Frame::clock(sample.time), SMALL + 1.0, theme.dim)];
         text.extend(lines(&sample));
         note(painter, theme, pos2(x, data.top() + 4.0), data, text);

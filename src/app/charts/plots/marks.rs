@@ -48,7 +48,7 @@ impl View<'_> {
         }
         let color = if strong { theme.ink } else { theme.dim };
         let x = painter.round_to_pixel_center(x);
-        painter.vline(x, data.y_range(), Stroke::new(if strong { 2.0 } else { 1.0 }, color));
+        painter.vline(x, data.y_range(), theme.line(if strong { 2.0 } else { 1.0 }, color));
         // A grip of two short lines says that it can be moved.
         let y = data.top() + 22.0;
         let grip = Rect::from_center_size(pos2(x, y), vec2(7.0, 14.0));

@@ -88,9 +88,11 @@ impl View<'_> {
         let y = painter.round_to_pixel_center(y);
         let ends = [pos2(data.left(), y), pos2(data.right(), y)];
         match (on, line.judges) {
-            (true, true) => drop(painter.hline(data.x_range(), y, Stroke::new(width, color))),
-            (true, false) => painter.extend(Shape::dashed_line(&ends, Stroke::new(width - 0.5, color), 6.0, 4.0)),
-            (false, _) => painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, color), 2.0, 5.0)),
+            (true, true) => drop(painter.hline(data.x_range(), y, self.frame.theme.line(width, color))),
+            (true, false) => {
+                painter.extend(Shape::dashed_line(&ends, self.frame.theme.line(width - 0.5, color), 6.0, 4.0))
+            }
+            (false, _) => painter.extend(Shape::dashed_line(&ends, self.frame.theme.line(1.0, color), 2.0, 5.0)),
         }
         let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));

@@ -8,13 +8,12 @@ use crate::app::stages::tuning::words::{digits, percent};
 use crate::app::stages::tuning::{Named, REACH, TEXT, View, taken};
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
-use crate::app::widgets::finger;
 use centrode_core::chart::{Chart, Panel, Role, Series, Style};
 use centrode_core::study::tuning::Point;
 use centrode_core::study::tuning::chart::{self, Curve, look};
 use centrode_core::study::tuning::recommend::Verdict;
 use centrode_core::study::tuning::watch::Rule;
-use egui::{CursorIcon, Pos2, Rect, Stroke, Ui, WidgetInfo};
+use egui::{CursorIcon, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo};
 
 /// Where a threshold lies; none where its values are not defined.
 pub type At = fn(&Point) -> Option<[f64; 2]>;
@@ -72,7 +71,7 @@ fn show(
 
 /// A click or a drag takes the nearest threshold; without a button the pointer reads it.
 fn touch(ui: &mut Ui, place: &Place, title: &str, at: At, view: &View<'_>, out: &mut Vec<Command>) {
-    let response = ui.interact(place.data(), ui.make_persistent_id(title), finger::picks(ui));
+    let response = ui.interact(place.data(), ui.make_persistent_id(title), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, title));
     let at = |point: &Point| at(point).map(|point| place.at(point));

@@ -5,12 +5,11 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::stages::tuner::LATE;
 use crate::app::stages::tuning::{REACH, TEXT, View, taken};
-use crate::app::widgets::finger;
 use crate::app::widgets::text;
 use centrode_core::chart::Chart;
 use centrode_core::study::tuning::chart::places;
 use centrode_core::study::tuning::watch::Rule;
-use egui::{Align2, CursorIcon, Rect, Role, Ui, WidgetInfo};
+use egui::{Align2, CursorIcon, Rect, Role, Sense, Ui, WidgetInfo};
 
 /// What the picture is made of: the study's version, a rule, and its threshold.
 pub type Key = (u64, Rule, Option<u64>);
@@ -43,7 +42,7 @@ pub fn histogram(
         return;
     }
     let held = median.map_or(f32::NAN, |median| place.at([median, 0.0]).x);
-    let response = ui.interact(data, ui.make_persistent_id(&panel.title), finger::picks(ui));
+    let response = ui.interact(data, ui.make_persistent_id(&panel.title), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
     response.widget_info(|| WidgetInfo::labeled(Role::Figure, true, &panel.title));
     if let Some(pointer) = taken(ui, &response, |finger| (finger.x - held).abs() < REACH) {

@@ -6,13 +6,12 @@ use crate::app::command::Command;
 use crate::app::stages::tuner::{Cells, LATE};
 use crate::app::stages::tuning::{Named, REACH, TEXT, View, curves, taken, words};
 use crate::app::state::Tuning;
-use crate::app::widgets::finger;
 use centrode_core::chart::ticks::Tick;
 use centrode_core::chart::{Axis, Chart, Map, Panel, Role, Series, Style};
 use centrode_core::study::tuning::Study;
 use centrode_core::study::tuning::chart::mark;
 use centrode_core::study::tuning::recommend::Verdict;
-use egui::{CursorIcon, Pos2, Rect, Ui, WidgetInfo};
+use egui::{CursorIcon, Pos2, Rect, Sense, Ui, WidgetInfo};
 
 /// What the picture is made of: the study's version, what is looked at in it, and how many thresholds it shows.
 pub type Key = (u64, Tuning, usize);
@@ -86,7 +85,7 @@ fn touch(
     out: &mut Vec<Command>,
 ) {
     let (rule, lengths) = (view.tuning.rule, &view.cells.lengths);
-    let response = ui.interact(place.data(), ui.make_persistent_id(heading), finger::picks(ui));
+    let response = ui.interact(place.data(), ui.make_persistent_id(heading), Sense::CLICK | Sense::DRAG);
     let response = response.on_hover_and_drag_cursor(CursorIcon::Crosshair);
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Figure, true, heading));
     let under = |at: Pos2| {
