@@ -284,7 +284,8 @@ fn who_wants_less_motion_sees_nothing_move_by_itself() {
     let mut page = page_of(PHONE);
     let time = app(&page).state().time;
     let wait = |page: &mut Page, what: &str| {
-        page.run_steps(2);
+        // A window knows its size after a few frames.
+        page.run_steps(4);
         let before = places(page);
         page.run_steps(12);
         assert!(before == places(page), "{what} moves");
@@ -296,6 +297,7 @@ fn who_wants_less_motion_sees_nothing_move_by_itself() {
         wait(&mut page, button);
     }
     page.key_press(Key::Escape);
+    page.run_steps(3);
     slide(&mut page, SHEET, 1.0);
     let at = slider(&page, "Contact time").rect().left_top() + vec2(4.0, -20.0);
     // A finger that flings.
