@@ -28,8 +28,8 @@ pub fn name(preset: &Preset) -> String {
 pub fn title(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
     let mut left = rect.left_center() + vec2(if rect.width() < 560.0 { 8.0 } else { 10.0 }, 0.0);
-    // On a phone the preset needs all there is.
-    if rect.width() < 170.0 {
+    // On the narrowest phones the preset needs all there is.
+    if rect.width() < 120.0 {
         left.x = rect.left();
     } else {
         mark(ui, left + vec2(9.0, 0.0), &theme);
