@@ -21,6 +21,7 @@ pub mod memo;
 pub mod message;
 pub mod mirror;
 pub mod panels;
+mod report;
 pub mod saving;
 pub mod stages;
 pub mod state;
@@ -60,11 +61,14 @@ use stages::studies::Studies;
 use stages::tuner::Tuner;
 use stages::viewport::{self, ViewState};
 use state::{State, Tab};
+use widgets::finger;
 use words::refusal;
-use words::story::{self, Phase};
+use words::story::Phase;
 
 /// The longest step of playback, s: after a pause of the whole page the cursor does not leap.
 const LONGEST_STEP: f64 = 0.25;
+/// What is lower than this in a sheet that is hardly drawn out is not shown, points.
+const SEEN: f32 = 24.0;
 
 /// What the surroundings tell and lend.
 #[derive(Debug, Default)]
@@ -117,6 +121,9 @@ impl App {
     #[must_use]
     pub fn new(ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>, host: Host) -> Self {
         theme::install(ctx);
+        if host.prefers_reduced_motion {
+            theme::hold_still(ctx);
+        }
         let state = State::default();
         ctx.set_theme(state.theme.preference());
         let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
@@ -145,7 +152,7 @@ impl App {
             listener: host.hosted.then(Listener::default),
         };
         // Nothing moves in the tuning that playback would show, and what moves by itself is not welcome to all.
-        app.state.playing = host.embed != Some(Embed::Tuning) && !(untouched && host.prefers_reduced_motion);
+        app.state.playing = host.embed != Some(Embed::Tuning) && !host.prefers_reduced_motion;
         app.go(&host.fragment);
         app
     }
@@ -189,44 +196,6 @@ impl App {
             || self.gallery.is_working()
             || self.lesson.is_measuring(self.state.lesson)
             || self.state.stage == Stage::Robot && self.memo.placed().is_working()
-    }
-
-    /// The page in a line of JSON: state at the cursor, cursor (s), detection of the run (s, m), playing, and a sentence.
-    #[must_use]
-    pub fn report(&self) -> String {
-        let (run, time) = (self.memo.run(), self.cursor());
-        serde_json::json!({
-            "state": Phase::at(run, time).words().to_lowercase(),
-            "time": time,
-            "detection_time": run.detection().map(|detection| detection.time),
-            "location": run.detection().map(|detection| detection.location),
-            "playing": self.state.playing,
-            "summary": match self.memo.recorded() {
-                Some(recorded) => words::log::sentence(run, recorded),
-                None => story::sentence(run),
-            },
-            "said": words::said::said(run, time),
-            "sound": self.sound(),
-            "log": self.log(),
-            "tuning": match self.state.stage {
-                Stage::Tuning => self.tuner.report(self.state.tuning.rule),
-                Stage::Detectors => self.comparer.report(),
-                _ => None,
-            },
-        })
-        .to_string()
-    }
-
-    /// What is heard: the deviation over its threshold, while it is played and there are both; none without sound.
-    fn sound(&self) -> Option<serde_json::Value> {
-        if !self.state.sound || !self.state.playing {
-            return None;
-        }
-        let run = self.memo.run();
-        let threshold = run.plan.scenario().detection.xi2.value();
-        let ratio = threshold.map(|xi2| run.sample_at(self.cursor()).judgement.deviation / xi2);
-        // What is undefined is null in JSON.
-        Some(serde_json::json!({ "ratio": ratio }))
     }
 
     /// The whole page.
@@ -331,14 +300,15 @@ impl App {
         whole.set_clip_rect(page);
         let ui = &mut whole;
         ui.painter().rect_filled(page, 0.0, theme.surface);
-        let sheet = match (self.prefers_reduced_motion, self.state.sheet) {
-            (true, open) => f32::from(u8::from(open)),
-            (false, open) => ui.ctx().animate_bool_responsive(egui::Id::unique("sheet"), open),
-        };
+        let sheet = panels::sheet::place(ui, &self.state, self.prefers_reduced_motion, out);
         let banner = self.logs.banner(self.memo.recorded());
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
+        // A stage takes the place of the tabs, and there is no sheet.
+        let drawn = self.state.stage == Stage::Robot || layout.controls.is_some();
+        let handle = layout.handle.filter(|_| drawn);
+        finger::welcome(ui, layout.sheet);
         let (cursor, covered) = (self.cursor(), self.is_covered());
         let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
         self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
@@ -384,6 +354,7 @@ impl App {
                 lesson::menu::menu(ui, (layout.tools, layout.sheet), (lesson, state.lesson.is_some()), out);
             });
         }
+        panels::sheet::sheet(ui, handle.as_ref(), sheet);
         if let Some(rect) = layout.controls {
             let refusal = memo.refusal().map(|refused| match refused {
                 Refusal::Scenario(refused) => refusal::told(refused),
@@ -427,7 +398,7 @@ impl App {
                     *prefers_reduced_motion,
                 );
             }
-        } else {
+        } else if whole.is_positive() {
             let inputs = stages::Inputs {
                 stage: state.stage,
                 plan: memo.plan(),
@@ -455,12 +426,8 @@ impl App {
             Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
                 // Where they do not fit above each other they are scrolled.
                 let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
-                if low {
-                    let area = egui::ScrollArea::vertical().auto_shrink(false);
-                    area.show(ui, |ui| plots::plots(ui, (run, memo.version()), cursor, plots, out));
-                } else {
-                    plots::plots(ui, (run, memo.version()), cursor, plots, out);
-                }
+                let content = |ui: &mut Ui| plots::plots(ui, (run, memo.version()), cursor, plots, out);
+                if low { panels::sheet::scrolled(ui, content) } else { panels::sheet::still(ui, content) }
             }),
             Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| {
                 plane::plane(ui, run, memo.trace(), (cursor, state.frozen, shown), out);
@@ -476,7 +443,12 @@ impl App {
             layout::card(ui, "tabbed", rect, |_| ());
             let (strip, below) = layout::tab_strip(rect);
             panels::tabs::tabs(ui, strip, state.tab, out);
-            show(ui, state.tab, below, out);
+            if below.height() > SEEN {
+                show(ui, state.tab, below, out);
+            }
+        }
+        if let Some(handle) = &handle {
+            panels::sheet::handle(ui, handle, state.stop, out);
         }
         let by_key = cover.update(ui, covered);
         if state.help && !state.keys {

@@ -12,6 +12,7 @@ mod worker;
 
 use crate::app::embed::Embed;
 use crate::app::helper::Helper;
+use crate::app::widgets::finger;
 use crate::app::{App, Host};
 use centrode_core::run::simulate;
 use centrode_core::scenario::Scenario;
@@ -222,6 +223,12 @@ fn repaint() {
     });
 }
 
+/// Paints the page once more.
+#[wasm_bindgen]
+pub fn paint() {
+    repaint();
+}
+
 struct Shell {
     app: App,
     last_report: String,
@@ -259,6 +266,16 @@ impl Shell {
             }
         });
     }
+}
+
+/// Whether a finger that comes down at a place of the canvas, CSS pixels from its corner, is for what the page shows there, whichever
+/// way it goes. Elsewhere the page around a frame may scroll.
+#[wasm_bindgen]
+#[must_use]
+pub fn wants_finger(x: f32, y: f32) -> bool {
+    CONTEXT.with_borrow(|ctx| {
+        ctx.as_ref().is_some_and(|ctx| finger::is_claimed(ctx, egui::pos2(x, y) / ctx.zoom_factor()))
+    })
 }
 
 /// Every widget on the page as a JSON array, see [`widgets::to_json`]. Empty unless opened by a test.

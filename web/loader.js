@@ -17,6 +17,8 @@ import { studies } from "./studies.js";
 
 const { settings, notices } = readQuery(location.search);
 const host = messages(settings.origins);
+/// The program, once it is there.
+let running = null;
 let failed = false;
 
 function fail(show, ...args) {
@@ -85,6 +87,20 @@ function leaveToElements(canvas) {
   }
 }
 
+/// A screen with other pixels: the canvas is cleared for them, and who is paused would not paint it. The interface learns of the pixels in
+/// one frame and lays out by them in the next.
+function paintOnOtherScreens(core) {
+  const paint = (times) => {
+    core.paint();
+    if (times > 1) requestAnimationFrame(() => paint(times - 1));
+  };
+  const change = () => {
+    paint(4);
+    paintOnOtherScreens(core);
+  };
+  matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true });
+}
+
 async function startOnSome(core) {
   // "auto" falls back by itself where no WebGPU adapter exists, but not when the adapter then refuses a device.
   const attempts = { auto: ["auto", "webgl"], webgpu: ["webgpu", "webgl"], webgl: ["webgl", "webgpu"] }[settings.renderer];
@@ -120,12 +136,13 @@ async function startOnSome(core) {
 }
 
 async function main() {
-  passThrough();
+  passThrough(() => running);
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);
   const module = await WebAssembly.compileStreaming(wasm);
   await core.default({ module_or_path: module });
+  running = core;
   hooks.study = studies(core, module);
   const kept = logs(core, module);
   hooks.choose = () => choose(core, kept);
@@ -140,6 +157,7 @@ async function main() {
   listen((text) => core.go(text));
   if (settings.test) globalThis.centrode = core;
   if (!(await startOnSome(core))) return;
+  paintOnOtherScreens(core);
   host?.start(core);
   keepOffline();
   showNotices(notices, () => document.getElementById("canvas").focus());

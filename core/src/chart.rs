@@ -207,6 +207,12 @@ pub enum Style {
     Heavy,
     /// A dashed line.
     Dashed,
+    /// A line of long dashes.
+    LongDashed,
+    /// A dotted line.
+    Dotted,
+    /// A line of dashes and dots in turn.
+    DashDotted,
     /// A triangle at each point.
     Triangles,
     /// A circle at each point.
@@ -221,7 +227,27 @@ pub enum Style {
     Targets,
 }
 
+/// Lengths of two dashes, each with the gap behind it.
+pub type Dash = [f64; 4];
+
 impl Style {
+    /// Whether it is a line, and not marks.
+    #[must_use]
+    pub fn is_line(self) -> bool {
+        matches!(self, Self::Line | Self::Thin | Self::Heavy) || self.dash().is_some()
+    }
+
+    /// The dashes of a line, in heights of the text; none for what has no dashes.
+    #[must_use]
+    pub fn dash(self) -> Option<Dash> {
+        match self {
+            Self::Dashed => Some([0.5, 0.32, 0.5, 0.32]),
+            Self::LongDashed => Some([1.3, 0.3, 1.3, 0.3]),
+            Self::Dotted => Some([0.13, 0.25, 0.13, 0.25]),
+            Self::DashDotted => Some([0.8, 0.24, 0.14, 0.24]),
+            _ => None,
+        }
+    }
     /// Its name in a table.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -230,6 +256,9 @@ impl Style {
             Self::Thin => "thin",
             Self::Heavy => "heavy",
             Self::Dashed => "dashed",
+            Self::LongDashed => "long dashed",
+            Self::Dotted => "dotted",
+            Self::DashDotted => "dash-dotted",
             Self::Triangles => "triangles",
             Self::Circles => "circles",
             Self::Dots => "dots",
@@ -273,7 +302,7 @@ pub struct Intervals {
     pub ends: Vec<[[f64; 2]; 3]>,
 }
 
-/// A vertical dashed line.
+/// A vertical line, in dashes by what it means: see [`Vertical::style`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vertical {
     /// Name in the legend; lines of one name are one entry, without a name there is none.
@@ -282,6 +311,18 @@ pub struct Vertical {
     pub x: f64,
     /// What it means.
     pub role: Role,
+}
+
+impl Vertical {
+    /// How a line of this meaning is drawn: those that stand in one panel differ without their colour.
+    #[must_use]
+    pub fn style(role: Role) -> Style {
+        match role {
+            Role::Contact => Style::Dotted,
+            Role::Detection => Style::DashDotted,
+            _ => Style::Dashed,
+        }
+    }
 }
 
 /// A shaded span of x.

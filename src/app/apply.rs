@@ -3,6 +3,7 @@
 use super::App;
 use crate::app::command::{Command, Mark};
 use crate::app::controls::control::Control;
+use crate::app::layout::sheet::Stop;
 use crate::app::panels::save;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::words::refusal;
@@ -89,8 +90,12 @@ impl App {
                         self.state.folded.insert(group.into());
                     }
                 }
-                Command::ShowTab(tab) => self.state.tab = tab,
-                Command::ToggleSheet => self.state.sheet = !self.state.sheet,
+                Command::ShowTab(tab) => {
+                    self.state.tab = tab;
+                    self.raise_sheet();
+                }
+                Command::ToggleSheet => self.state.sheet = self.raise_sheet() || !self.state.sheet,
+                Command::DrawSheet(stop) => self.state.stop = stop,
                 Command::ToggleHelp => self.state.help = !self.state.help,
                 Command::ToggleSound => self.state.sound = !self.state.sound,
                 Command::ToggleKeys => self.state.keys = !self.state.keys,
@@ -107,6 +112,13 @@ impl App {
                 Command::CopyNotice => self.copy_notice(ctx),
             }
         }
+    }
+
+    /// What is asked for in a sheet that only peeks out is wanted whole; returns whether it only did.
+    fn raise_sheet(&mut self) -> bool {
+        let peeks = self.state.stop == Stop::Peek;
+        self.state.stop = if peeks { Stop::Half } else { self.state.stop };
+        peeks
     }
 
     fn mark(&mut self, mark: Mark, time: Option<f64>) {

@@ -1,6 +1,7 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
 use crate::app::controls::control::{Choice, Control};
+use crate::app::layout::sheet::Stop;
 use crate::app::lesson::Wish;
 use crate::app::log::form::Edit;
 use crate::app::saving::{Format, Subject};
@@ -128,8 +129,10 @@ pub enum Command {
     },
     /// Stop the study, or go on with it.
     HoldStudy(bool),
-    /// Open or close the sheet of controls.
+    /// Let a small screen's sheet hold the controls, or no longer.
     ToggleSheet,
+    /// Draw that sheet out so far.
+    DrawSheet(Stop),
     /// Open or close the help.
     ToggleHelp,
     /// Let the run be heard, or no longer.

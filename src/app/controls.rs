@@ -9,7 +9,7 @@ pub mod table;
 
 use std::collections::BTreeMap;
 
-use egui::{Align2, CursorIcon, Frame, Margin, Role, ScrollArea, Sense, Ui, UiBuilder, WidgetInfo, vec2};
+use egui::{Align2, CursorIcon, Frame, Margin, Role, Sense, Ui, UiBuilder, WidgetInfo, vec2};
 
 use crate::app::charts::notation;
 use crate::app::command::Command;
@@ -19,12 +19,16 @@ use crate::app::fonts;
 use crate::app::layout;
 use crate::app::memo::recorded::Recorded;
 use crate::app::mirror;
+use crate::app::panels::sheet;
 use crate::app::state::State;
 use crate::app::theme::Theme;
 use crate::app::widgets::{focus, icon, text};
 use crate::app::words::log;
 use centrode_core::scenario::Scenario;
 use row::Context;
+
+/// Below this height there is no foot, points.
+const LEAST: f32 = 110.0;
 
 /// What the panel needs to know.
 pub struct Inputs<'a> {
@@ -45,10 +49,15 @@ pub struct Inputs<'a> {
 /// Shows the controls.
 pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let edge = if inputs.touch { 4.0 } else { 10.0 };
-    let (scrolled, foot) = ui.max_rect().split_top_bottom_at_y(ui.max_rect().bottom() - 52.0);
-    layout::inside(ui, "reset", foot.shrink2(vec2(16.0, edge)), |ui| reset_all(ui, inputs, out));
+    let mut scrolled = ui.max_rect();
+    // A sheet that is hardly drawn out has no foot.
+    if scrolled.height() > LEAST {
+        let (above, foot) = scrolled.split_top_bottom_at_y(scrolled.bottom() - 52.0);
+        layout::inside(ui, "reset", foot.shrink2(vec2(16.0, edge)), |ui| reset_all(ui, inputs, out));
+        scrolled = above;
+    }
     let mut ui = ui.new_child(UiBuilder::new().max_rect(scrolled));
-    ScrollArea::vertical().auto_shrink(false).show(&mut ui, |ui| {
+    sheet::scrolled(&mut ui, |ui| {
         Frame::new().inner_margin(Margin { left: 16, right: 16, top: 6, bottom: 6 }).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             if let Some(refusal) = &inputs.refusal {

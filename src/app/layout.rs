@@ -1,5 +1,7 @@
 //! Where everything is, on a desk, a tablet and a phone, and in the frame of another page.
 
+pub mod sheet;
+
 use egui::{Rect, Ui, Vec2, pos2, vec2};
 
 use crate::app::controls::row::TARGET;
@@ -9,6 +11,7 @@ use crate::app::mirror;
 use crate::app::panels::title::tools_width;
 use crate::app::panels::transport::{FLAT, TALL};
 use crate::app::theme::GAP;
+use sheet::{Handle, Sheet};
 
 /// The rectangles of the page. What is not there is not shown.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +26,7 @@ pub struct Layout {
     pub view: Option<Rect>,
     /// Playback.
     pub transport: Option<Rect>,
-    /// Controls; on a small screen the sheet, and none while it is closed.
+    /// Controls; on a small screen in the sheet, and none while that holds the tabs.
     pub controls: Option<Rect>,
     /// Tabs and below them one of the three views that follow.
     pub tabbed: Option<Rect>,
@@ -37,6 +40,8 @@ pub struct Layout {
     pub lesson: Option<Rect>,
     /// Whether the controls are in a sheet.
     pub sheet: bool,
+    /// The sheet on a small screen, and its handle.
+    pub handle: Option<Handle>,
 }
 
 /// Cuts a strip off one side of a rectangle, and a gap.
@@ -95,9 +100,9 @@ impl Bar {
 }
 
 impl Layout {
-    /// Lays out a page of a size, or what of it is shown in a frame; `sheet` is how far the sheet of controls is open, 0 to 1.
+    /// Lays out a page of a size, or what of it is shown in a frame.
     #[must_use]
-    pub fn new(page: Rect, sheet: f32, embed: Option<Embed>) -> Self {
+    pub fn new(page: Rect, sheet: Sheet, embed: Option<Embed>) -> Self {
         match embed {
             None => Self::whole(page, sheet, false),
             Some(Embed::All) => Self::whole(page, sheet, true),
@@ -113,7 +118,7 @@ impl Layout {
         }
     }
 
-    fn whole(page: Rect, sheet: f32, framed: bool) -> Self {
+    fn whole(page: Rect, sheet: Sheet, framed: bool) -> Self {
         let Vec2 { x: width, y: height } = page.size();
         if height < 560.0 || (width < 1140.0 && height < 640.0) {
             if width < 560.0 { Self::phone(page, sheet, framed) } else { Self::low(page, sheet, framed) }
@@ -161,6 +166,7 @@ impl Layout {
             plots: None,
             lesson: None,
             sheet: false,
+            handle: None,
         }
     }
 
@@ -198,8 +204,8 @@ impl Layout {
         Self { title, views: Some(views), view: Some(view), transport: Some(transport), ..Self::tools(tools) }
     }
 
-    /// Views and 3D on top, tabs or the sheet below, playback under the thumb.
-    fn phone(page: Rect, sheet: f32, framed: bool) -> Self {
+    /// Views and 3D on top, the sheet below, playback under the thumb.
+    fn phone(page: Rect, sheet: Sheet, framed: bool) -> Self {
         let mut rest = inner(page);
         let row = rest.top(TARGET);
         let bar = if framed {
@@ -210,26 +216,25 @@ impl Layout {
             Bar { title: Some(row.0), views: rest.top(TARGET), tools }
         };
         let transport = rest.bottom(TALL);
-        let share = egui::lerp(0.52..=0.36, sheet);
-        let view = rest.top(rest.0.height() * share);
-        Self::plain(bar, view, transport).with_lower(rest.0, sheet)
+        Self::plain(bar, rest.0, transport).with_sheet(sheet::below(rest.0, sheet), sheet)
     }
 
-    /// A phone on its side: 3D at the left, tabs or the sheet at the right, playback below.
-    fn low(page: Rect, sheet: f32, framed: bool) -> Self {
+    /// A phone on its side: 3D at the left, the sheet at the right, playback below.
+    fn low(page: Rect, sheet: Sheet, framed: bool) -> Self {
         let mut rest = inner(page);
         let bar = rest.top(TARGET);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
-        let side = rest.right(rest.0.width() * 0.5);
         // Beside the tools and four views that can be read.
         let room = bar.width() - tools_width(true) - 2.0 * GAP - 196.0;
         let title = (0.32 * bar.width()).clamp(150.0, 300.0).min(room.max(110.0));
-        Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport).with_lower(side, sheet)
+        Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport)
+            .with_sheet(sheet::beside(rest.0, sheet), sheet)
     }
 
-    fn with_lower(self, place: Rect, sheet: f32) -> Self {
-        let (controls, tabbed) = if sheet > 0.5 { (Some(place), None) } else { (None, Some(place)) };
-        Self { controls, tabbed, sheet: true, ..self }
+    fn with_sheet(self, (view, handle): (Option<Rect>, Handle), sheet: Sheet) -> Self {
+        let place = handle.split().1;
+        let (controls, tabbed) = if sheet.controls { (Some(place), None) } else { (None, Some(place)) };
+        Self { view, controls, tabbed, sheet: true, handle: Some(handle), ..self }
     }
 
     /// How wide the card of a lesson gets.
@@ -264,11 +269,12 @@ impl Layout {
             return Self { view, tabbed, transport, lesson: Some(lesson), ..self };
         }
         let mut rest = Cut(if beside { view } else { view.union(lower) });
-        let lesson = if beside { lower } else { rest.bottom(need.min(0.62 * rest.0.height())) };
+        let lower = self.handle.map_or(lower, |handle| handle.sheet);
+        let lesson = if beside { lower } else { rest.bottom(need.min(0.7 * rest.0.height())) };
         let one = |wanted: bool| wanted.then_some(rest.0);
         let open = self.controls.is_some();
         let (plots, robot) = (focus == Focus::Plots && !open, focus == Focus::Robot && !open);
-        Self { view: one(robot), tabbed: one(plots), controls: one(open), lesson: Some(lesson), ..self }
+        Self { view: one(robot), tabbed: one(plots), controls: one(open), lesson: Some(lesson), handle: None, ..self }
     }
 
     /// Nothing but the bars, the plate in place of the view, and the card.
@@ -395,8 +401,11 @@ mod tests {
             (2560.0, 1440.0),
         ] {
             let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
-            for sheet in [0.0, 1.0] {
-                let rects = Layout::new(page, sheet, None).all();
+            let stops = [false, true].map(|controls| [0.0, 1.0, 2.0].map(|at| Sheet { controls, at }));
+            for sheet in stops.into_iter().flatten() {
+                let layout = Layout::new(page, sheet, None);
+                assert!(layout.view.is_some() || sheet.at > 1.0, "{width}×{height}: {sheet:?}");
+                let rects = layout.all();
                 for (i, rect) in rects.iter().enumerate() {
                     assert!(page.contains_rect(*rect), "{width}×{height}: {rect:?}");
                     // The first three are bars.
@@ -420,7 +429,7 @@ mod tests {
         {
             let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(width, height));
             for embed in Embed::ALL {
-                let layout = Layout::new(page, 0.0, Some(embed));
+                let layout = Layout::new(page, Sheet { controls: false, at: 1.0 }, Some(embed));
                 let small = height < 240.0;
                 assert_eq!(layout.title, None, "{embed:?}");
                 if embed == Embed::All {

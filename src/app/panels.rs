@@ -10,6 +10,7 @@ pub mod notice;
 pub mod readout;
 pub mod save;
 pub mod share;
+pub mod sheet;
 pub mod tabs;
 pub mod title;
 pub mod transport;

@@ -26,6 +26,7 @@ use crate::app::stages::studies::{Found, Studies};
 use crate::app::stages::tuner::Tuner;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
 use crate::app::words::refusal;
@@ -95,21 +96,22 @@ pub fn stage(
     let mut top = rect.top() + 8.0;
     // On a phone on its side there is no height to spare and width enough.
     let low = rect.height() < LOW && rect.width() > WIDE;
+    let (side, high) = (save::side(ui), finger::at_least(ui, 32.0));
     if inputs.stage.section() == Section::Paper {
-        let room = if low { 0.58 * rect.width() } else { rect.width() - 14.0 - save::BUTTON };
-        let strip = Rect::from_min_max(pos2(rect.left() + 8.0, top), pos2(rect.left() + room, top + 32.0));
+        let room = if low { 0.58 * rect.width() } else { rect.width() - 14.0 - side };
+        let strip = Rect::from_min_max(pos2(rect.left() + 8.0, top), pos2(rect.left() + room, top + high));
         choice(ui, strip, inputs.stage, out);
         if let Some(source) = inputs.source.filter(|_| low) {
-            source.line(ui, strip.with_min_x(strip.right() + 14.0).with_max_x(rect.right() - 14.0 - save::BUTTON), out);
+            source.line(ui, strip.with_min_x(strip.right() + 14.0).with_max_x(rect.right() - 14.0 - side), out);
         }
         if let Some(subject) = Subject::on(inputs.stage) {
-            let corner = pos2(rect.right() - 8.0 - 0.5 * save::BUTTON, strip.center().y);
-            save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), subject, out);
+            let corner = pos2(rect.right() - 8.0 - 0.5 * side, strip.center().y);
+            save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(side)), subject, out);
         }
         top = strip.bottom() + 4.0;
     }
     if inputs.stage.section() == Section::Tuning {
-        let strip = Rect::from_min_size(pos2(rect.left() + 8.0, top), vec2(SWITCH.min(rect.width() - 16.0), 32.0));
+        let strip = Rect::from_min_size(pos2(rect.left() + 8.0, top), vec2(SWITCH.min(rect.width() - 16.0), high));
         switch(ui, strip, inputs.stage, out);
         top = strip.bottom() + 4.0;
     }
@@ -120,8 +122,10 @@ pub fn stage(
     }
     let mut body = Rect::from_min_max(pos2(rect.left() + PAD, line.bottom() + 6.0), rect.max - vec2(PAD, 10.0));
     if let Some(source) = inputs.source.filter(|_| !low) {
-        source.line(ui, body.with_max_y(body.top() + source::LINE), out);
-        body.min.y += source::LINE + 6.0;
+        // What one can take over is a button.
+        let line = if source.taken { source::LINE } else { finger::at_least(ui, source::LINE) };
+        source.line(ui, body.with_max_y(body.top() + line), out);
+        body.min.y += line + 6.0;
     }
     if let Some(refused) = studies.refused().or(inputs.tuner.refused()) {
         let said = format!("{} cannot be shown: {}.", inputs.stage.name(), refusal::told(refused));

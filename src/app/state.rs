@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::app::controls::control::Control;
 use crate::app::controls::table;
+use crate::app::layout::sheet::Stop;
 use crate::app::lesson::At;
 use crate::app::stages::stage::Stage;
 use crate::app::theme::ThemeChoice;
@@ -50,8 +51,10 @@ pub struct State {
     pub tab: Tab,
     /// The times A and B that are held against each other, s.
     pub marks: [Option<f64>; 2],
-    /// Whether a small screen shows the controls.
+    /// Whether a small screen's sheet holds the controls, and not the tabs.
     pub sheet: bool,
+    /// How far that sheet is drawn out.
+    pub stop: Stop,
     /// Whether the help is open.
     pub help: bool,
     /// Where one is in the lessons; none outside of them.
@@ -117,6 +120,7 @@ impl Default for State {
             tab: Tab::Result,
             marks: [None; 2],
             sheet: false,
+            stop: Stop::Half,
             help: false,
             lesson: None,
             sound: false,

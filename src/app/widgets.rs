@@ -2,6 +2,7 @@
 
 pub mod button;
 pub mod field;
+pub mod finger;
 pub mod focus;
 pub mod icon;
 pub mod rail;

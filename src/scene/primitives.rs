@@ -346,3 +346,11 @@ pub struct Scene {
     /// The floor.
     pub ground: Option<Ground>,
 }
+
+impl Scene {
+    /// Makes all lines and the edges of signs so many times thicker.
+    pub fn thicken(&mut self, times: f32) {
+        self.lines.iter_mut().for_each(|line| line.width *= times);
+        self.markers.iter_mut().for_each(|marker| marker.outline_width *= times);
+    }
+}

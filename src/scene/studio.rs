@@ -31,7 +31,7 @@ impl Studio {
     /// On white.
     pub const LIGHT: Self = Self {
         inner: Color::hex(0xFFFFFF),
-        outer: Color::hex(0xEDF0F3),
+        outer: Color::hex(0xF0F3F6),
         key_from: Vec3::new(-0.30, -0.50, 1.45),
         key: 0.78,
         fill: 0.20,

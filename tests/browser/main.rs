@@ -35,6 +35,7 @@ mod lesson;
 mod links;
 mod logs;
 mod paper;
+mod phone;
 mod saving;
 mod start;
 mod theory;

@@ -14,7 +14,7 @@ use egui_kittest::kittest::Queryable;
 /// A page that is opened with this fragment.
 fn linked(size: Vec2, fragment: &'static str) -> Page {
     let ui = move |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let host = || Host { prefers_reduced_motion: true, fragment: fragment.into(), ..Host::default() };
+        let host = || Host { fragment: fragment.into(), ..Host::default() };
         app.get_or_insert_with(|| App::new(ui.ctx(), None, host())).ui(ui);
     };
     let builder = Harness::builder().with_size(size).with_step_dt(0.1).with_theme(egui::Theme::Dark);

@@ -18,12 +18,7 @@ const ADDRESS: &str = "https://example.org/centrode/";
 /// A page at an address with this fragment.
 fn page_at(size: Vec2, fragment: &'static str) -> Page {
     let ui = move |ui: &mut egui::Ui, app: &mut Option<App>| {
-        let host = || Host {
-            prefers_reduced_motion: true,
-            address: ADDRESS.into(),
-            fragment: fragment.into(),
-            ..Host::default()
-        };
+        let host = || Host { address: ADDRESS.into(), fragment: fragment.into(), ..Host::default() };
         app.get_or_insert_with(|| App::new(ui.ctx(), None, host())).ui(ui);
     };
     let builder = Harness::builder().with_size(size).with_step_dt(0.1).with_theme(egui::Theme::Dark);

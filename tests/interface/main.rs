@@ -17,6 +17,7 @@ mod saving;
 mod stages;
 mod support;
 mod theory;
+mod touch;
 mod tuning;
 mod ui;
 mod views;

@@ -2,7 +2,7 @@
 
 use crate::support::{Page, app, build, click, page_of, slide, slider};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, TouchDeviceId, TouchId, TouchPhase, vec2};
+use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -321,22 +321,6 @@ fn presets_theme_groups_and_help() {
 }
 
 #[test]
-fn on_a_phone_the_controls_are_in_a_sheet() {
-    let mut page = page_of(vec2(390.0, 844.0));
-    assert!(page.query_by_role_and_label(Role::Slider, "Contact disk").is_none());
-    click(&mut page, "Controls");
-    page.run_steps(3);
-    slide(&mut page, "Contact disk", 3.0);
-    assert_eq!(field(&page, "Contact disk"), "3");
-    click(&mut page, "Controls");
-    page.run_steps(3);
-    for tab in ["Plots", "Bending plane", "Result"] {
-        click(&mut page, tab);
-    }
-    assert!(page.query_by_label_contains("was noticed").is_some());
-}
-
-#[test]
 fn every_input_has_a_name_and_nothing_leaves_the_page() {
     for size in [vec2(390.0, 844.0), vec2(844.0, 390.0), vec2(768.0, 1024.0), vec2(1440.0, 900.0), vec2(1920.0, 1080.0)]
     {
@@ -352,70 +336,4 @@ fn every_input_has_a_name_and_nothing_leaves_the_page() {
             }
         }
     }
-}
-
-#[test]
-fn a_finger_hits_everything_on_a_phone() {
-    for (size, sheet) in [(vec2(390.0, 844.0), false), (vec2(390.0, 844.0), true), (vec2(360.0, 640.0), true)] {
-        let mut page = page_of(size);
-        if sheet {
-            click(&mut page, "Controls");
-            page.run_steps(3);
-        }
-        let mut small = Vec::new();
-        for node in page.root().children_recursive() {
-            let role = node.accesskit_node().role();
-            let button = matches!(role, Role::Button | Role::CheckBox | Role::RadioButton | Role::Tab);
-            let name = node.accesskit_node().label().unwrap_or_default();
-            // A link in a line of text is as high as that, and handles on plots have fields and switches beside them.
-            let target = button || matches!(role, Role::Slider | Role::TextInput);
-            if !target || name.contains("plot") {
-                continue;
-            }
-            let rect = node.rect();
-            if rect.width().min(rect.height()) < 43.5 {
-                small.push(format!("{role:?} {name}: {:.0} × {:.0}", rect.width(), rect.height()));
-            }
-        }
-        assert!(small.is_empty(), "at {size}, {}: {small:#?}", if sheet { "sheet" } else { "views" });
-    }
-}
-
-#[test]
-fn a_finger_that_scrolls_the_controls_changes_none() {
-    let mut page = page_of(vec2(390.0, 844.0));
-    click(&mut page, "Controls");
-    page.run_steps(3);
-    let before = app(&page).state().scenario.clone();
-    let start = slider(&page, "Contact time").rect().center() + vec2(60.0, 0.0);
-    let finger = |page: &mut Page, at: egui::Pos2, phase: TouchPhase| {
-        page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos: at, force: None });
-        if phase == TouchPhase::Move {
-            page.event(Event::PointerMoved(at));
-        } else {
-            let pressed = phase == TouchPhase::Start;
-            page.event(Event::PointerMoved(at));
-            page.event(Event::PointerButton {
-                pos: at,
-                button: egui::PointerButton::Primary,
-                pressed,
-                modifiers: Modifiers::NONE,
-            });
-        }
-        page.step();
-    };
-    finger(&mut page, start, TouchPhase::Start);
-    for i in 1..=6 {
-        finger(&mut page, start - vec2(0.0, 10.0 * i as f32), TouchPhase::Move);
-    }
-    finger(&mut page, start - vec2(0.0, 60.0), TouchPhase::End);
-    page.run_steps(2);
-    assert_eq!(app(&page).state().scenario, before);
-    let start = slider(&page, "Contact time").rect().center();
-    finger(&mut page, start, TouchPhase::Start);
-    for i in 1..=6 {
-        finger(&mut page, start + vec2(10.0 * i as f32, 0.0), TouchPhase::Move);
-    }
-    finger(&mut page, start + vec2(60.0, 0.0), TouchPhase::End);
-    assert_ne!(app(&page).state().scenario, before);
 }

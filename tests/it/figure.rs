@@ -32,7 +32,7 @@ fn written(name: &str, args: &[&str], file: &str) -> Vec<u8> {
     bytes
 }
 
-fn figure(number: Number) -> Chart {
+pub fn figure(number: Number) -> Chart {
     let scenario = find(number.preset()).and_then(|preset| preset.scenario()).expect("its preset");
     let mut job = FigureJob::new(number, &scenario).expect("valid");
     job.finish();

@@ -34,6 +34,7 @@ mod forces;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;
+mod grey;
 #[cfg(feature = "cli")]
 mod icons;
 mod keys;

@@ -11,7 +11,7 @@ use super::clip::{Rect, Spot};
 use super::font::{self, width};
 use super::notation::printed;
 use super::scale::Scale;
-use super::{Chart, Panel, Role, Series};
+use super::{Chart, Dash, Panel, Role, Series};
 
 /// The page of a chart.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -187,8 +187,8 @@ pub enum Item {
     Map(Rect, usize),
     /// The area between two edges, point by point.
     Band(Vec<[Spot; 2]>, Paint),
-    /// A line through points, its width, and the lengths of its dashes and of the gaps between them.
-    Line(Vec<Spot>, Paint, f64, Option<[f64; 2]>),
+    /// A line through points, its width, and the lengths of its dashes and of the gaps between them, points.
+    Line(Vec<Spot>, Paint, f64, Option<Dash>),
     /// A mark at a place, its form and its radius; its edge parts it from what is behind it.
     Mark(Spot, Form, f64, Paint, Ink),
     /// A text.
@@ -309,7 +309,7 @@ impl Pen<'_> {
         self.add(Item::Text(Text { text: printed(text), at, size, ink, align, strong, upright }));
     }
 
-    fn line(&mut self, points: &[Spot], paint: impl Into<Paint>, wide: f64, dash: Option<[f64; 2]>) {
+    fn line(&mut self, points: &[Spot], paint: impl Into<Paint>, wide: f64, dash: Option<Dash>) {
         self.add(Item::Line(points.to_vec(), paint.into(), wide, dash));
     }
 

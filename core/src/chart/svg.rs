@@ -120,8 +120,12 @@ impl Page<'_> {
                 self.line(&line);
             }
             Item::Line(points, paint, wide, dash) => {
-                let dash = dash
-                    .map_or(String::new(), |[on, off]| format!(" stroke-dasharray=\"{} {}\"", length(on), length(off)));
+                let dash = dash.map_or(String::new(), |dash| {
+                    // Two of a kind are said once.
+                    let lengths = if dash[..2] == dash[2..] { &dash[..2] } else { &dash[..] };
+                    let lengths: Vec<String> = lengths.iter().map(|of| length(*of)).collect();
+                    format!(" stroke-dasharray=\"{}\"", lengths.join(" "))
+                });
                 let (path, paint) = (path(points.iter().copied()), self.paint("stroke", *paint));
                 self.line(&format!(
                     "<path d=\"{path}\" fill=\"none\" {paint} stroke-width=\"{}\"{dash}/>",

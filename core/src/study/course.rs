@@ -101,7 +101,7 @@ pub fn curves(method: Method, thresholds: &Thresholds) -> Vec<Curve> {
         Method::Fcd => vec![judged(|sample, _| sample.judgement.deviation)],
         Method::Jfd => {
             let follows = thresholds.xi1_rule == Xi1Rule::Bound && thresholds.xi1.value().is_some();
-            let style = if follows { Style::Thin } else { Style::Dashed };
+            let style = if follows { Style::LongDashed } else { Style::Dotted };
             vec![
                 judged(|sample, _| sample.judgement.residual),
                 Curve {

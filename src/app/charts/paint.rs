@@ -189,9 +189,7 @@ impl Brush<'_> {
                 let stroke = Stroke::new((*wide as f32).max(1.0) * self.theme.weight, self.color(*paint));
                 let points = self.sharp(points.iter().map(|point| self.pos(*point)).collect());
                 match dash {
-                    Some([on, off]) => {
-                        painter.extend(egui::Shape::dashed_line(&points, stroke, *on as f32, *off as f32));
-                    }
+                    Some(dash) => painter.extend(dashed(&points, stroke, dash.map(|length| length as f32))),
                     None => drop(painter.line(points, stroke)),
                 }
             }
@@ -266,6 +264,11 @@ impl Brush<'_> {
             self.painter.galley(place.min, galley, ink);
         }
     }
+}
+
+/// A line of dashes: the lengths of two, each with the gap behind it.
+pub fn dashed(points: &[Pos2], stroke: Stroke, [one, gap, other, last]: [f32; 4]) -> Vec<egui::Shape> {
+    egui::Shape::dashed_line_with_offset(points, stroke, &[one, other], &[gap, last], 0.0)
 }
 
 #[cfg(test)]

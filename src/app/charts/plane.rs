@@ -193,14 +193,14 @@ impl View<'_> {
         let font = FontId::proportional(SMALL);
         for tick in self.axes.x.ticks(44.0, Steps::Decimal) {
             let x = painter.round_to_pixel_center(self.axes.x.at(tick.value));
-            painter.vline(x, data.y_range(), Stroke::new(1.0, theme.faint));
+            painter.vline(x, data.y_range(), theme.line(1.0, theme.faint));
             if x > data.left() + 6.0 && x < data.right() - 8.0 {
                 painter.text(pos2(x, data.bottom() + 4.0), Align2::CENTER_TOP, tick.text, font.clone(), theme.dim);
             }
         }
         for tick in self.axes.z.ticks(44.0, Steps::Decimal) {
             let y = painter.round_to_pixel_center(self.axes.z.at(tick.value));
-            painter.hline(data.x_range(), y, Stroke::new(1.0, theme.faint));
+            painter.hline(data.x_range(), y, theme.line(1.0, theme.faint));
             painter.text(pos2(data.left() - 5.0, y), Align2::RIGHT_CENTER, tick.text, font.clone(), theme.dim);
         }
     }
@@ -210,7 +210,7 @@ impl View<'_> {
         let theme = &self.theme;
         let opacity = if self.track.let_go(self.cursor) { 0.3 } else { 1.0 };
         let (fill, edge) = (theme.obstacle.gamma_multiply(opacity), theme.ink.gamma_multiply(0.5 * opacity));
-        let edge = Stroke::new(1.5, edge);
+        let edge = self.theme.line(1.5, edge);
         for piece in self.track.beam() {
             match piece {
                 Outline::Round(center, radius) => {
@@ -223,22 +223,22 @@ impl View<'_> {
         }
         let frozen = if self.frozen { self.track.frozen(self.cursor) } else { None };
         for (ghost, color) in [(self.track.ghost(self.cursor), theme.model), (frozen, theme.constrained)] {
-            let stroke = Stroke::new(1.6, color.gamma_multiply(0.75));
+            let stroke = self.theme.line(1.6, color.gamma_multiply(0.75));
             painter.extend(Shape::dashed_line(&self.line(&ghost.unwrap_or_default()), stroke, 5.0, 4.0));
         }
         let robot = self.track.robot(&self.track.truth(self.cursor));
         let sides = robot.sides.each_ref().map(|side| self.line(side));
         strip(painter, [&sides[0], &sides[1]], theme.robot.gamma_multiply(0.13));
         for side in sides {
-            painter.line(side, Stroke::new(1.0, theme.robot.gamma_multiply(0.55)));
+            painter.line(side, theme.line(1.0, theme.robot.gamma_multiply(0.55)));
         }
         for ends in &robot.disks {
             painter.line_segment(
                 ends.map(|end| self.axes.at(end)),
-                Stroke::new(3.0 * self.size, theme.robot.gamma_multiply(0.8)),
+                theme.line(3.0 * self.size, theme.robot.gamma_multiply(0.8)),
             );
         }
-        painter.line(self.line(&robot.backbone), Stroke::new(3.0 * self.size, theme.robot));
+        painter.line(self.line(&robot.backbone), theme.line(3.0 * self.size, theme.robot));
     }
 
     /// The loci over the whole motion; the sensor's up to now.
@@ -294,7 +294,7 @@ impl View<'_> {
                 && settings.xi2.value().is_some_and(|xi2| sample.judgement.deviation > xi2);
             let color = if over { theme.detection } else { theme.sensor };
             let ends = [self.axes.at(model), self.axes.at(sensor)];
-            painter.line_segment(ends, Stroke::new(2.0, color));
+            painter.line_segment(ends, self.theme.line(2.0, color));
             let text = format!("{} mm", number(sample.judgement.deviation * 1e3, 2));
             self.value(painter, ends[0] + 0.5 * (ends[1] - ends[0]), ends, (&text, color), taken);
         }
@@ -344,7 +344,7 @@ impl View<'_> {
     fn force(&self, painter: &Painter) -> Option<Rect> {
         let force = self.track.force(&self.track.truth(self.cursor))?;
         let ends = force.arrow.map(|at| self.axes.at(at));
-        arrow(painter, ends, Stroke::new(2.4, self.theme.force));
+        arrow(painter, ends, self.theme.line(2.4, self.theme.force));
         Some(self.value(painter, ends[0], ends, (&force.words, self.theme.force), None))
     }
 
@@ -365,7 +365,7 @@ impl View<'_> {
         for (end, inward) in [(placed.place.low, 1e-4), (placed.place.high, -1e-4)] {
             let [at, beside] = [end, end + inward].map(across);
             let side = (beside - at).normalized().rot90() * (13.0 * self.size);
-            painter.line_segment([at - side, at + side], Stroke::new(1.5, color));
+            painter.line_segment([at - side, at + side], self.theme.line(1.5, color));
         }
     }
 

@@ -162,10 +162,11 @@ fn in_place(
             );
             // In the corner of the card.
             if which == if beside { count - 1 } else { 0 } {
-                let corner = pos2(rect.right() - 0.5 * save::BUTTON, rect.top() + 9.0);
-                let button = Rect::from_center_size(corner, Vec2::splat(save::BUTTON - 2.0));
+                let side = save::side(ui);
+                let corner = pos2(rect.right() - 0.5 * side, rect.top() + 9.0);
+                let button = Rect::from_center_size(corner, Vec2::splat(side - 2.0));
                 save::menu_with(ui, button, Subject::Plots, state.marks.iter().all(Option::is_some), out);
-                frame.tool = save::BUTTON - RIGHT;
+                frame.tool = side - RIGHT;
             }
             let (state, out) = (&mut *state, &mut *out);
             let marks = state.marks;

@@ -3,13 +3,14 @@
 use super::tour::{STEPS, Step, TOUR, choice, control};
 use super::{At, Lesson, Wish};
 use crate::app::command::Command;
-use crate::app::controls::row::{self, Context};
+use crate::app::controls::row::{self, Context, TARGET};
 use crate::app::controls::table::GROUPS;
 use crate::app::fonts;
 use crate::app::layout;
 use crate::app::state::State;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
 use centrode_core::scenario::Scenario;
@@ -88,9 +89,9 @@ pub fn height(ui: &Ui, width: f32, inputs: &Inputs<'_>) -> f32 {
 /// How high the controls are that the card shows, with the space above them, points.
 pub(super) fn rows(inputs: &Inputs<'_>, keys: &'static [&'static str]) -> f32 {
     let row = |key| match (control(key).is_some(), inputs.touch) {
-        (true, true) => 67.0,
+        (true, true) => 93.0,
         (true, false) => 48.0,
-        (false, true) => 66.0,
+        (false, true) => 94.0,
         (false, false) => 58.0,
     };
     let rows: f32 = inputs.hidden(keys).map(row).sum();
@@ -163,7 +164,8 @@ fn head(ui: &mut Ui, rect: Rect, (place, step): (usize, &Step), inputs: &Inputs<
 
 /// The way out, at the right end of a line.
 pub(super) fn leave(ui: &mut Ui, line: Rect, name: &str, out: &mut Vec<Command>) {
-    let corner = Rect::from_center_size(line.right_center() - vec2(22.0, -2.0), vec2(30.0, 30.0));
+    let down = if finger::is_welcome(ui) { 0.5 * (TARGET - HEAD) } else { 2.0 };
+    let corner = Rect::from_center_size(line.right_center() + vec2(-22.0, down), vec2(30.0, 30.0));
     if ui.push_id("leave", |ui| icon::button(ui, corner, Icon::Close, name, Look::Plain)).inner.clicked() {
         out.push(Command::Lesson(Wish::Leave));
     }
@@ -254,7 +256,8 @@ pub(super) fn on_accent(ui: &mut Ui, rect: Rect, label: &str, prominent: bool, t
         return button(ui, rect, label, theme);
     }
     let id = ui.make_persistent_id(("button", label));
-    let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    let response = ui.interact(finger::around(ui, rect), id, Sense::click());
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
     let fill = theme.accent.lerp_to_gamma(theme.ink, if response.hovered() { 0.12 } else { 0.0 });
     ui.painter().rect_filled(rect, 7.0, fill);

@@ -7,6 +7,7 @@ use crate::app::fonts;
 use crate::app::log::form::{Edit, Form};
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::text;
 use centrode_core::record::log::{Format, Role};
 
@@ -66,7 +67,7 @@ pub fn columns(ui: &mut Ui, form: &Form, out: &mut Vec<Command>) {
             commands(ui, form, &theme, out);
         });
         ui.add_space(10.0);
-        let (bar, _) = ui.allocate_exact_size(vec2(width, 32.0), egui::Sense::hover());
+        let (bar, _) = ui.allocate_exact_size(vec2(width, finger::at_least(ui, 32.0)), egui::Sense::hover());
         let [wide, narrow] = ["Read log", "Cancel"].map(|word| text::width(ui, word, fonts::strong(12.5)) + 28.0);
         let read = Rect::from_min_max(pos2(bar.right() - wide, bar.top()), bar.max);
         let left = read.left() - 8.0;

@@ -6,6 +6,7 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::text;
 
 /// What it says.
@@ -68,7 +69,7 @@ pub fn notice(ui: &mut Ui, notice: &Notice, out: &mut Vec<Command>) {
             }
         });
         ui.add_space(12.0);
-        let (bar, _) = ui.allocate_exact_size(vec2(width, 32.0), egui::Sense::hover());
+        let (bar, _) = ui.allocate_exact_size(vec2(width, finger::at_least(ui, 32.0)), egui::Sense::hover());
         let [wide, narrow] = ["Copy details", "Go on"].map(|word| text::width(ui, word, fonts::strong(12.5)) + 28.0);
         let go_on = Rect::from_min_max(pos2(bar.right() - narrow, bar.top()), bar.max);
         let copy =

@@ -1,15 +1,21 @@
 //! What the run came to: a sentence, and figures in a table.
 
-use egui::{Align2, ScrollArea, Sense, Ui, vec2};
+use egui::{Align2, Sense, Ui, vec2};
 
 use crate::app::fonts;
 use crate::app::memo::placed::Placed;
 use crate::app::memo::recorded::Recorded;
+use crate::app::panels::sheet;
 use crate::app::theme::Theme;
 use crate::app::widgets::text;
 use crate::app::words::story::{self, Figure};
 use crate::app::words::{log, placed as placing};
 use centrode_core::run::Run;
+
+/// Below this height there is less space around the words, points.
+const LOW: f32 = 290.0;
+/// The least height of a row, points.
+const LEAST: f32 = 15.5;
 
 /// Shows the readout of a run, simulated or of a log, and what the calibration filter's alarm says at a time (s).
 pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, time): (&Placed, f64)) {
@@ -18,8 +24,10 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
         Some(recorded) => (log::words(run, recorded), log::figures(run)),
         None => (story::words(run), story::figures(run)),
     };
-    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        egui::Frame::new().inner_margin(egui::Margin::symmetric(16, 12)).show(ui, |ui| {
+    let low = ui.max_rect().height() < LOW;
+    let edge = if low { 5 } else { 12 };
+    sheet::scrolled(ui, |ui| {
+        egui::Frame::new().inner_margin(egui::Margin::symmetric(16, edge)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
             ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());
             for (said, color) in
@@ -30,12 +38,12 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
                     ui.add(egui::Label::new(text::rich(&said, 12.5, color)).wrap());
                 }
             }
-            ui.add_space(8.0);
+            ui.add_space(if low { 5.0 } else { 8.0 });
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);
             let width = (ui.available_width() - if wide { 40.0 } else { 0.0 }) / columns as f32;
-            let height = ((ui.available_height() - 14.0) / rows as f32).clamp(19.0, 26.0);
+            let height = ((ui.available_height() - 14.0) / rows as f32).clamp(LEAST, 26.0);
             let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), height * rows as f32), Sense::hover());
             for (i, figure) in figures.iter().enumerate() {
                 let (column, row) = ((i / rows) as f32, (i % rows) as f32);

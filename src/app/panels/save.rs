@@ -7,12 +7,19 @@ use crate::app::panels::menu;
 use crate::app::panels::title::choice;
 use crate::app::saving::Subject;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
 
 /// Width and height of the button, points.
-pub const BUTTON: f32 = 30.0;
+const BUTTON: f32 = 30.0;
 /// The menu that a key asked for is opened when it is next shown, unless that takes more frames than this.
 const PATIENCE: u64 = 4;
+
+/// Width and height of the button, points; larger for a finger.
+#[must_use]
+pub fn side(ui: &Ui) -> f32 {
+    finger::at_least(ui, BUTTON)
+}
 
 fn asked() -> Id {
     Id::unique("save")

@@ -11,9 +11,9 @@ use crate::app::panels::gallery::Gallery;
 use crate::app::panels::{menu, share};
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
-use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
+use crate::app::widgets::{finger, focus};
 use centrode_core::scenario::preset::Preset;
 
 /// A preset's name as the page writes it.
@@ -38,8 +38,9 @@ pub fn title(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out:
     if rect.width() > 240.0 {
         left.x = text::paint(ui, left, Align2::LEFT_CENTER, "Centrode", fonts::strong(16.0), theme.ink).right() + 14.0;
     }
+    let high = finger::at_least(ui, 30.0).min(rect.height());
     let room = (rect.right() - left.x).clamp(72.0, 240.0);
-    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -15.0), vec2(room, 30.0));
+    let place = Rect::from_min_size(rect.left_center() + vec2(left.x - rect.left(), -0.5 * high), vec2(room, high));
     presets(ui, place, state, gallery, out);
 }
 
@@ -79,6 +80,9 @@ pub fn tools(ui: &mut Ui, rect: Rect, state: &State, sheet: bool, out: &mut Vec<
     }
 }
 
+/// The highest that the box of a menu is painted, points.
+const BOX: f32 = 36.0;
+
 /// A button with a text that opens a menu.
 fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Response {
     let response =
@@ -88,7 +92,9 @@ fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Re
     let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
     let edge = if response.has_focus() { theme.accent } else { theme.faint };
-    ui.painter().rect(rect, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
+    // A finger needs more than the eye.
+    let shown = rect.shrink2(vec2(0.0, (0.5 * (rect.height() - BOX)).max(0.0)));
+    ui.painter().rect(shown, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
     ui.painter_at(rect.with_max_x(rect.right() - 22.0)).text(
         rect.left_center() + vec2(10.0, 0.0),
         Align2::LEFT_CENTER,
@@ -146,7 +152,7 @@ pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), ch
     job.append(title, 0.0, format(fonts::strong(13.0), if chosen { theme.accent } else { theme.ink }));
     job.append(&format!("\n{}", summary), 0.0, format(fonts::regular(12.0), theme.dim));
     let galley = ui.painter().layout_job(job);
-    let size = vec2(ui.available_width(), galley.size().y + 12.0);
+    let size = vec2(ui.available_width(), finger::at_least(ui, galley.size().y + 12.0));
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(role, ui.is_enabled(), chosen, title));
     if response.hovered() || response.has_focus() {

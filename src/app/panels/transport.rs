@@ -11,6 +11,7 @@ use crate::app::fonts;
 use crate::app::memo;
 use crate::app::state::State;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::slider::{self, Slider};
@@ -26,12 +27,13 @@ pub const TALL: f32 = 104.0;
 /// Shows playback with the cursor (s) of the views; in two rows where it is narrow.
 pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f64), out: &mut Vec<Command>) {
     let narrow = rect.height() > FLAT + 1.0;
-    let size = if narrow { TARGET } else { 34.0 };
+    let fingers = narrow || finger::is_welcome(ui);
+    let size = if fingers { TARGET } else { 34.0 };
     let y = if narrow { rect.bottom() - 30.0 } else { rect.center().y };
     let mut x = rect.left() + if narrow { 8.0 } else { 10.0 };
     let mut place = |width: f32| {
         x += width;
-        Rect::from_center_size(pos2(x - width / 2.0, y), vec2(if narrow { width } else { width - 2.0 }, size))
+        Rect::from_center_size(pos2(x - width / 2.0, y), vec2(if fingers { width } else { width - 2.0 }, size))
     };
 
     // On the narrowest phones the scrub bar alone goes to the start.
@@ -78,7 +80,8 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
     let track = if narrow {
         Rect::from_min_max(rect.min + vec2(8.0, 6.0), pos2(rect.right() - 8.0, rect.bottom() - 54.0))
     } else {
-        Rect::from_min_max(pos2(left + 4.0, rect.top() + 8.0), pos2(right, rect.bottom() - 8.0))
+        let edge = if fingers { 4.0 } else { 8.0 };
+        Rect::from_min_max(pos2(left + 4.0, rect.top() + edge), pos2(right, rect.bottom() - edge))
     };
     scrub(ui, track, run, cursor, out);
 }

@@ -7,6 +7,7 @@ use crate::app::saving::Subject;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::segmented::{Segment, segmented, several_named};
 use crate::app::widgets::text::{paint, width};
 use egui::{Align2, Rect, Ui, Vec2, pos2, vec2};
@@ -17,6 +18,8 @@ pub const WISHES: [(f64, &str); 4] = [(0.01, "1 %"), (0.02, "2 %"), (0.05, "5 %"
 pub const REPEATS: [(usize, &str); 3] = [(100, "100"), (400, "400"), (1000, "1000")];
 /// Height of a row.
 const ROW: f32 = 28.0;
+/// Height of a label that stands above its options.
+const LABEL: f32 = 20.0;
 
 /// One choice.
 pub struct Part<'a> {
@@ -64,26 +67,37 @@ pub fn row(
     out: &mut Vec<Command>,
 ) -> Option<(usize, usize)> {
     let theme = Theme::of(ui);
-    let whole = ui.available_width() - save::BUTTON - 8.0;
-    let (mut row, mut x) = (ui.allocate_space(vec2(whole, ROW)).1, 0.0);
-    let corner = pos2(row.right() + 8.0 + 0.5 * save::BUTTON, row.center().y);
-    save::menu(ui, Rect::from_center_size(corner, Vec2::splat(save::BUTTON)), subject, out);
+    let (side, high) = (save::side(ui), finger::at_least(ui, ROW));
+    let whole = ui.available_width() - side - 8.0;
+    let (mut row, mut x) = (ui.allocate_space(vec2(whole, high)).1, 0.0);
+    let corner = pos2(row.right() + 8.0 + 0.5 * side, row.center().y);
+    save::menu(ui, Rect::from_center_size(corner, Vec2::splat(side)), subject, out);
     let mut clicked = None;
     for (k, part) in parts.iter().enumerate() {
         let Part { label, options, chosen, wide, several: most } = part;
         let head = width(ui, label, fonts::regular(12.0)) + 8.0;
-        let wide = if beside { *wide } else { (whole - head).min(*wide) };
+        let fingers = finger::is_welcome(ui);
         let most = most.map(|most| if beside { options.len() } else { most });
+        // Rows of boxes have a gap between them.
+        let high = if fingers && most.is_some() { high + 2.0 } else { high };
+        let wide = if fingers && most.is_none() { wide.max(high * options.len() as f32) } else { *wide };
+        // Where options beside their label would be too small they stand below it.
+        let below = fingers && !beside && head + wide > whole && most.is_none();
+        let head = if below { 0.0 } else { head };
+        let wide = if beside { wide } else { (whole - head).min(wide) };
         let rows = most.map_or(1, |most| options.len().div_ceil(most.max(1)));
-        if x > 0.0 && (x + head + wide > whole || rows > 1) {
-            (row, x) = (ui.allocate_space(vec2(whole, ROW * rows as f32)).1, 0.0);
-        } else if rows > 1 {
-            let (_, more) = ui.allocate_space(vec2(whole, ROW * (rows - 1) as f32));
+        let above = if below { LABEL } else { 0.0 };
+        let tall = above + high * rows as f32;
+        if x > 0.0 && (x + head + wide > whole || rows > 1 || below) {
+            (row, x) = (ui.allocate_space(vec2(whole, tall)).1, 0.0);
+        } else if tall > row.height() {
+            let (_, more) = ui.allocate_space(vec2(whole, tall - row.height()));
             row.max.y = more.max.y;
         }
         let left = row.left() + x;
-        paint(ui, pos2(left, row.top() + 0.5 * ROW), Align2::LEFT_CENTER, label, fonts::regular(12.0), theme.dim);
-        let place = Rect::from_min_size(pos2(left + head, row.top()), vec2(wide, ROW * rows as f32));
+        let middle = row.top() + 0.5 * if below { LABEL } else { high };
+        paint(ui, pos2(left, middle), Align2::LEFT_CENTER, label, fonts::regular(12.0), theme.dim);
+        let place = Rect::from_min_size(pos2(left + head, row.top() + above), vec2(wide, high * rows as f32));
         let picked = match most {
             Some(most) => {
                 let names: Vec<String> = options.iter().map(|option| format!("{label} {option}")).collect();
@@ -98,7 +112,7 @@ pub fn row(
         };
         clicked = picked.map(|picked| (k, picked)).or(clicked);
         x += head + wide + 16.0;
-        if rows > 1 {
+        if rows > 1 || below {
             x = whole;
         }
     }
@@ -106,9 +120,9 @@ pub fn row(
         let label = if held { "Go on" } else { "Stop" };
         let wide = 140.0 + width(ui, label, fonts::regular(12.5));
         if x + wide > whole {
-            (row, x) = (ui.allocate_space(vec2(whole, ROW)).1, 0.0);
+            (row, x) = (ui.allocate_space(vec2(whole, high)).1, 0.0);
         }
-        let place = Rect::from_min_size(pos2(row.left() + x, row.top()), vec2(66.0, ROW));
+        let place = Rect::from_min_size(pos2(row.left() + x, row.top()), vec2(66.0, high));
         if button(ui, place, label, &theme) {
             out.push(Command::HoldStudy(!held));
         }

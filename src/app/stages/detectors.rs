@@ -14,6 +14,7 @@ use crate::app::stages::tuning;
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::text::rich;
 use crate::app::words::refusal;
 use centrode_core::chart::{Chart, Panel};
@@ -166,11 +167,11 @@ fn summary(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &mut 
         let room = if advice.is_some() { 70.0 } else { 0.0 };
         text.wrap.max_width = (ui.available_width() - room).max(80.0);
         let size = ui.painter().layout_job(text.clone()).size();
-        let (_, place) = ui.allocate_space(vec2(size.x, size.y.max(24.0)));
+        let (_, place) = ui.allocate_space(vec2(size.x, size.y.max(finger::at_least(ui, 24.0))));
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("summary"));
         said.add(Label::new(text).wrap());
         if let Some((method, point)) = advice {
-            let at = Rect::from_min_size(place.right_top() + vec2(8.0, -3.0), vec2(60.0, 24.0));
+            let at = Rect::from_min_size(place.right_top() + vec2(8.0, -3.0), vec2(60.0, finger::at_least(ui, 24.0)));
             if button(ui, at, "Take it", &theme) {
                 out.push(Command::TakeDetector { method, threshold: point.threshold });
             }

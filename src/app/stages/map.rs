@@ -36,7 +36,7 @@ pub fn map(
     let key = (version, Scenario { contact: nowhere, ..plan.scenario().clone() });
     let picture = Picture::keep(kept, ui.ctx(), &theme, (key, true), || without_contact(shown, plan));
     let mut words = job(&summary(shown, inputs), 12.5, theme.ink);
-    let told = rect.with_max_x(rect.right() - save::BUTTON - 6.0);
+    let told = rect.with_max_x(rect.right() - save::side(ui) - 6.0);
     words.wrap.max_width = told.width();
     let mut hint = job(
         "Computed without noise. Contacts below the line are missed. Click or drag to put the contact there. The second map shows the \
@@ -52,8 +52,9 @@ pub fn map(
     inner.add(Label::new(words).wrap());
     inner.add(Label::new(hint).wrap());
 
-    let corner = pos2(rect.right() - 0.5 * save::BUTTON, foot + 0.5 * save::BUTTON - 4.0);
-    save::menu(ui, Rect::from_center_size(corner, egui::Vec2::splat(save::BUTTON)), Subject::Map, out);
+    let corner = pos2(rect.right() - 0.5 * save::side(ui), foot + 0.5 * save::side(ui) - 4.0);
+    let place = Rect::from_center_size(corner, egui::Vec2::splat(save::side(ui)));
+    save::menu(ui, place, Subject::Map, out);
 
     let space = rect.with_max_y(foot - 8.0);
     let painter = ui.painter().clone();

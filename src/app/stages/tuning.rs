@@ -19,6 +19,7 @@ use crate::app::stages::tuner::{Cells, Tuner};
 use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::text::rich;
 use centrode_core::chart::{Chart, Role, Style};
 use centrode_core::scenario::Xi1Rule;
@@ -254,13 +255,16 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
         let mut text = rich(&advice, 13.0, if take.is_some() { view.theme.ink } else { view.theme.dim });
         let room = if take.is_some() { 70.0 } else { 0.0 };
         text.wrap.max_width = (ui.available_width() - room).max(80.0);
-        let height = ui.painter().layout_job(text.clone()).size().y.max(24.0);
+        let height = ui.painter().layout_job(text.clone()).size().y.max(finger::at_least(ui, 24.0));
         let wide = ui.painter().layout_job(text.clone()).size().x;
         let (_, place) = ui.allocate_space(vec2(wide, height));
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("advice"));
         said.add(Label::new(text).wrap());
         if let Some((level, length)) = take {
-            let at = Rect::from_min_size(pos2(place.right() + 8.0, place.top() - 3.0), vec2(60.0, 24.0));
+            let at = Rect::from_min_size(
+                pos2(place.right() + 8.0, place.top() - 3.0),
+                vec2(60.0, finger::at_least(ui, 24.0)),
+            );
             if button(ui, at, "Take it", &view.theme) {
                 view.take(level, Some(length), out);
             }

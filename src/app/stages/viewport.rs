@@ -12,8 +12,8 @@ use egui::{Align2, CursorIcon, EventFilter, Key, PointerButton, Rect, Response, 
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::{finger, focus};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::{Palette, Shade};
 use crate::scene::{Camera, Scene, Studio};
@@ -126,7 +126,9 @@ impl ViewState {
         let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
         let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
         let options = ViewOptions { palette: Palette::of(shade), pulse, frozen, placed };
-        self.scene = Arc::new(view(run, trace, time, &options));
+        let mut scene = view(run, trace, time, &options);
+        scene.thicken(options.palette.weight);
+        self.scene = Arc::new(scene);
         self.version += 1;
         self.shown = Some(shown);
     }
@@ -153,6 +155,7 @@ pub fn viewport(
     let response = ui.interact(rect, ui.scope_id().with("3d"), Sense::click_and_drag());
     response.widget_info(|| WidgetInfo::labeled(Role::Canvas, true, "3D view"));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(KEYS));
+    finger::claim(ui, rect);
     state.focused = response.has_focus();
     let home = home_camera(run);
     let mut camera = state.camera.take().unwrap_or(home);
@@ -166,12 +169,13 @@ pub fn viewport(
     let size_px = [size.x.round().max(0.0) as u32, size.y.round().max(0.0) as u32];
     let picture = Picture { scene: state.scene.clone(), version: state.version, camera, studio, size_px };
     ui.painter().add(egui_wgpu::Callback::new_paint_callback(rect, picture));
+    let apart = vec2(-finger::at_least(ui, 36.0), 0.0);
     let button = Rect::from_center_size(rect.right_top() + vec2(-24.0, 24.0), vec2(32.0, 32.0));
-    let file = button.translate(vec2(-36.0, 0.0));
+    let file = button.translate(apart);
     let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
     let mut taken = vec![button, file, chip];
     if only_touches(run) {
-        let compare = file.translate(vec2(-36.0, 0.0));
+        let compare = file.translate(apart);
         taken.push(compare);
         let look = if frozen { Look::Lit } else { Look::Plain };
         if icon::button(ui, compare, Icon::Compare, "Compare with a clamp", look).clicked() {

@@ -4,6 +4,7 @@ use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, Widget
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::text::paint;
 
 /// Shows a button; returns whether it was clicked.
@@ -14,7 +15,7 @@ pub fn button(ui: &mut Ui, rect: Rect, label: &str, theme: &Theme) -> bool {
 /// The same with another name to assistive technology than the word on it, where several have the same word.
 pub fn named(ui: &mut Ui, rect: Rect, (label, name): (&str, &str), theme: &Theme) -> bool {
     let id = ui.make_persistent_id(("button", name));
-    let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    let response = ui.interact(finger::around(ui, rect), id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
     let warm = if response.hovered() { 0.08 } else { 0.0 };
     let edge = if response.has_focus() { theme.accent } else { theme.faint };

@@ -9,6 +9,7 @@ use egui::{
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 
 /// A sign.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,7 +69,8 @@ pub enum Look {
 pub fn button(ui: &mut Ui, rect: Rect, icon: Icon, label: &str, look: Look) -> Response {
     let theme = Theme::of(ui);
     let id = ui.make_persistent_id(("icon", rect_key(icon)));
-    let response = ui.interact(rect, id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+    let response = ui.interact(finger::around(ui, rect), id, Sense::click());
+    let response = response.on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| match look {
         Look::Lit => WidgetInfo::selected(Role::Button, ui.is_enabled(), true, label),
         _ => WidgetInfo::labeled(Role::Button, ui.is_enabled(), label),

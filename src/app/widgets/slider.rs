@@ -6,6 +6,7 @@ use egui::{CursorIcon, EventFilter, Key, Rect, Response, Sense, Stroke, Ui, Widg
 
 use crate::app::controls::control::Scale;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::rail::Rail;
 
 /// Radius of a handle, points.
@@ -47,6 +48,7 @@ pub fn sense(ui: &mut Ui, rect: Rect, slider: &Slider<'_>) -> (Response, Option<
     let id = ui.make_persistent_id(("slider", slider.key));
     let response =
         ui.interact(rect, id, Sense::click_and_drag()).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
+    finger::claim(ui, rect);
     let mut asked = None;
     if let (true, Some(pointer)) = (held(ui, &response), response.interact_pointer_pos()) {
         let (left, right) = way(rect);
@@ -107,6 +109,7 @@ fn held(ui: &Ui, response: &Response) -> bool {
         Some(false) => {
             let moved = vec2(0.0, response.drag_delta().y);
             ui.scroll_with_delta_animation(moved, ScrollAnimation::none());
+            finger::pass(ui);
             false
         }
         None if !ui.input(|input| input.any_touches()) => true,

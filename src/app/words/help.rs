@@ -95,7 +95,7 @@ pub fn help(ui: &mut Ui, (sound, by_key): (bool, bool), out: &mut Vec<Command>) 
                     if ui.add(keys).on_hover_text("All of them, also by the key ?").clicked() {
                         out.push(Command::ToggleKeys);
                     }
-                    let (place, _) = ui.allocate_exact_size(vec2(32.0, 28.0), egui::Sense::hover());
+                    let (place, _) = ui.allocate_exact_size(ui.spacing().interact_size, egui::Sense::hover());
                     if toggle(ui, place, "Sound", sound) {
                         out.push(Command::ToggleSound);
                     }

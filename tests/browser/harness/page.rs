@@ -417,6 +417,24 @@ impl Page {
         }
     }
 
+    /// A finger that comes down at one place, goes to another and is lifted there.
+    pub fn swipe(&mut self, from: [f64; 2], to: [f64; 2]) {
+        const STEPS: u32 = 12;
+        let at = |k: u32| [0, 1].map(|i| from[i] + (to[i] - from[i]) * f64::from(k) / f64::from(STEPS));
+        self.touch("touchStart", &[from]);
+        (1..=STEPS).for_each(|k| self.touch("touchMove", &[at(k)]));
+        self.touch("touchEnd", &[]);
+        self.frames();
+    }
+
+    /// What fingers do: `touchStart`, `touchMove` or `touchEnd`, and where those are that are down.
+    pub fn touch(&mut self, what: &str, fingers: &[[f64; 2]]) {
+        let points: Vec<_> =
+            fingers.iter().enumerate().map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id })).collect();
+        self.chromium.call("Input.dispatchTouchEvent", json!({ "type": what, "touchPoints": points }));
+        self.frames();
+    }
+
     /// What the page looks like now, in device pixels.
     pub fn picture(&mut self) -> Picture {
         Picture::decode(&self.png())

@@ -4,7 +4,7 @@ use super::{Align, Form, Frame, Ink, Item, Look, Paint, Pen};
 use crate::chart::clip::{Rect, Spot};
 use crate::chart::decimate::{Column, columns, spans};
 use crate::chart::font::width;
-use crate::chart::{Intervals, Map, Panel, Role, Series, Style};
+use crate::chart::{Intervals, Map, Panel, Role, Series, Style, Vertical};
 use libm::hypot;
 
 /// Opacity of a shaded span, of a band, and of what parts white from a map.
@@ -86,7 +86,8 @@ impl Pen<'_> {
             let x = frame.x.at(vertical.x);
             if (frame.data.left..=frame.data.right).contains(&x) {
                 let line = [[x, frame.data.top], [x, frame.data.bottom]];
-                self.line(&line, Ink::Role(vertical.role), 0.12 * self.t, Some([0.46 * self.t, 0.3 * self.t]));
+                let dash = Vertical::style(vertical.role).dash().map(|dash| dash.map(|length| 0.92 * length * self.t));
+                self.line(&line, Ink::Role(vertical.role), 0.12 * self.t, dash);
             }
         }
     }
@@ -108,7 +109,7 @@ impl Pen<'_> {
 
     /// The columns of pixels of a curve that has many more points than there are columns; heights are places, points.
     fn dense(&self, series: &Series, frame: &Frame) -> Option<Vec<Vec<Column>>> {
-        let line = matches!(series.style, Style::Line | Style::Thin | Style::Heavy | Style::Dashed);
+        let line = series.style.is_line();
         let many = series.points.len() as f64 > MANY * frame.data.width() / self.page.pixel;
         let rises = || series.points.windows(2).all(|pair| pair[0][0] <= pair[1][0]);
         (line && many && rises()).then(|| self.columns(series, frame))
@@ -148,7 +149,7 @@ impl Pen<'_> {
             _ if series.faint => 0.1 * t,
             _ => 0.13 * t,
         };
-        let dash = (series.style == Style::Dashed).then_some([0.5 * t, 0.32 * t]);
+        let dash = series.style.dash().map(|dash| dash.map(|length| length * t));
         for part in frame.data.inside(points) {
             self.line(&part, paint, wide, dash);
         }
@@ -197,7 +198,7 @@ impl Pen<'_> {
     fn series(&mut self, series: &Series, points: &[Spot], frame: &Frame, edge: Ink) {
         let t = self.t;
         let form = match series.style {
-            Style::Line | Style::Thin | Style::Heavy | Style::Dashed => {
+            style if style.is_line() => {
                 self.curve(series, &thinned(points, SAME * t), frame);
                 return;
             }
@@ -205,7 +206,7 @@ impl Pen<'_> {
             Style::Circles => Form::Circle,
             Style::Dots | Style::Targets => Form::Dot,
             Style::Rings => Form::Ring,
-            Style::Diamonds => Form::Diamond,
+            _ => Form::Diamond,
         };
         let mut last: Option<Spot> = None;
         for &at in points.iter().filter(|at| frame.data.holds(**at)) {

@@ -3,7 +3,7 @@
 use super::{Form, Ink, Item, Look, Paint, Pen};
 use crate::chart::clip::{Rect, Spot};
 use crate::chart::font::width;
-use crate::chart::{Panel, Role, Style};
+use crate::chart::{Panel, Role, Style, Vertical};
 
 /// Height of a row, in sizes of the text.
 const ROW: f64 = 1.45;
@@ -76,23 +76,28 @@ impl Pen<'_> {
         }
     }
 
+    fn dashes(&mut self, line: &[Spot], style: Style, role: Role) {
+        // A little shorter than in the chart, so that whole dashes show.
+        let dash = style.dash().map(|dash| dash.map(|length| 0.92 * length * self.t));
+        self.line(line, Ink::Role(role), 0.13 * self.t, dash);
+    }
+
     fn sign(&mut self, sign: Sign, [x, y]: Spot) {
         let t = self.t;
         let line = [[x - 1.15 * t, y], [x + 1.15 * t, y]];
         match sign {
             Sign::Series(Style::Line, role) => self.line(&line, Ink::Role(role), 0.16 * t, None),
             Sign::Series(Style::Heavy, role) => {
-                self.line(&[[x, y - 0.6 * t], [x, y + 0.6 * t]], Ink::Role(role), 0.27 * t, None);
+                self.line(&line, Ink::Role(role), 0.27 * t, None);
             }
             Sign::Series(Style::Thin, role) => self.line(&line, Ink::Role(role), 0.1 * t, None),
-            Sign::Series(Style::Dashed, role) | Sign::Vertical(role) => {
-                self.line(&line, Ink::Role(role), 0.13 * t, Some([0.46 * t, 0.3 * t]));
-            }
+            Sign::Vertical(role) => self.dashes(&line, Vertical::style(role), role),
+            Sign::Series(style, role) if style.dash().is_some() => self.dashes(&line, style, role),
             Sign::Series(Style::Triangles, role) => self.mark([x, y], Form::Triangle, role, Ink::Ground),
             Sign::Series(Style::Circles, role) => self.mark([x, y], Form::Circle, role, Ink::Ground),
             Sign::Series(Style::Dots | Style::Targets, role) => self.mark([x, y], Form::Dot, role, Ink::Ground),
             Sign::Series(Style::Rings, role) => self.mark([x, y], Form::Ring, role, Ink::Ground),
-            Sign::Series(Style::Diamonds, role) => self.mark([x, y], Form::Diamond, role, Ink::Ground),
+            Sign::Series(_, role) => self.mark([x, y], Form::Diamond, role, Ink::Ground),
             Sign::Interval(role) => {
                 self.line(&line, Ink::Role(role), 0.12 * t, None);
                 self.mark([x, y], Form::Dot, role, Ink::Ground);

@@ -29,13 +29,16 @@ const GAP: [f64; 2] = [f64::NAN; 2];
 /// The share of intervals that should hold the truth.
 const NOMINAL: f64 = 0.95;
 
-/// How a detector's curve looks: the paper's are as in all plots, their relatives dashed or thin.
+/// How a detector's curve looks: no two are drawn alike.
 #[must_use]
 pub fn look(method: Method) -> (Role, Style) {
     let style = match method {
-        Method::Fcd | Method::Jfd | Method::Cusum => Style::Line,
-        Method::FcdConsistent | Method::Glr => Style::Dashed,
+        Method::Fcd => Style::Line,
+        Method::FcdConsistent => Style::Dashed,
         Method::FcdVelocity => Style::Thin,
+        Method::Jfd => Style::LongDashed,
+        Method::Cusum => Style::DashDotted,
+        Method::Glr => Style::Dotted,
     };
     (measure(method).role, style)
 }
@@ -44,7 +47,7 @@ fn estimator_look(word: &str) -> (Role, Style, &'static str) {
     match Estimator::ALL.iter().find(|estimator| estimator.word() == word) {
         Some(Estimator::Eq24) => (Role::Sensor, Style::Line, "Eq. 24"),
         Some(Estimator::Settled) => (Role::Sensor, Style::Dashed, "Eq. 24, settled"),
-        _ => (Role::Likelihood, Style::Line, "Posterior mean"),
+        _ => (Role::Likelihood, Style::DashDotted, "Posterior mean"),
     }
 }
 
@@ -82,7 +85,7 @@ pub fn delays(comparison: &Comparison) -> Panel {
         panel.series.push(Series::new(name(compared), role, style, points));
     }
     let bound = comparison.bounds.iter().map(|bound| [bound.rate, bound.delay.median]).collect();
-    panel.series.push(Series::new(NO_TEST, Role::Bound, Style::Line, bound));
+    panel.series.push(Series::new(NO_TEST, Role::Bound, Style::Heavy, bound));
     for compared in &comparison.detectors {
         let role = look(compared.method()).0;
         let own = compared.own.as_ref().filter(|own| own.false_alarms.of > 0 && own.median.is_finite());
@@ -135,7 +138,7 @@ pub fn errors(comparison: &Comparison) -> Panel {
         panel.intervals.push(Intervals { name: String::new(), role, ends: places.iter().map(at).collect() });
     }
     let bound = comparison.place_bounds.iter().map(|limit| [limit.since, limit.bound]).collect();
-    panel.series.push(Series::new(NO_ESTIMATE, Role::Bound, Style::Line, bound));
+    panel.series.push(Series::new(NO_ESTIMATE, Role::Bound, Style::Heavy, bound));
     panel
 }
 

@@ -55,11 +55,15 @@ impl OverBend {
         }
         let [from, to] = self.ends().map(bend_from_theta_l);
         let bends: Vec<f64> = (0..POINTS).map(|k| from + (to - from) * (k as f64 / (POINTS - 1) as f64)).collect();
-        let own = multiple == 1.0;
+        let (role, style) = match multiple {
+            1.0 => (Role::Bound, Style::Dashed),
+            less if less < 1.0 => (Role::Member(0.15), Style::Dotted),
+            _ => (Role::Member(0.75), Style::LongDashed),
+        };
         Some(Series::new(
             format!("ε_c for ε_τ = {}", words::percent(epsilon)),
-            if own { Role::Bound } else { Role::Member(if multiple < 1.0 { 0.15 } else { 0.75 }) },
-            Style::Dashed,
+            role,
+            style,
             curve(&self.plan, &bends, epsilon, Segment::common_error_bound),
         ))
     }

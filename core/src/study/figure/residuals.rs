@@ -40,9 +40,11 @@ impl Content for Residuals {
         let mut curve = Thinner::new(plan.samples());
         simulation.by_ref().for_each(|sample| curve.push([sample.time, sample.judgement.residual]));
         self.contact = self.contact.or(simulation.contact_time());
-        let (name, role) =
-            if plan.contact().is_some() { ("with contact", Role::Force) } else { ("without contact", Role::Robot) };
-        self.series.push(Series::new(name, role, Style::Line, curve.finish()));
+        let (name, role, style) = match plan.contact() {
+            Some(_) => ("with contact", Role::Force, Style::Line),
+            None => ("without contact", Role::Robot, Style::LongDashed),
+        };
+        self.series.push(Series::new(name, role, style, curve.finish()));
     }
 
     fn chart(&self) -> Chart {

@@ -29,22 +29,22 @@ pub struct Curve<'a> {
     pub name: String,
     /// What it means.
     pub role: Role,
-    /// Whether its line is dashed.
-    pub dashed: bool,
+    /// How its line is drawn.
+    pub style: Style,
     /// Whether it stands back behind the others.
     pub faint: bool,
     /// One point for each threshold, rising.
     pub points: &'a [Point],
 }
 
-/// What a rule means in a chart, and whether its line is dashed.
+/// What a rule means in a chart, and how its line is drawn.
 #[must_use]
-pub fn look(rule: Rule) -> (Role, bool) {
+pub fn look(rule: Rule) -> (Role, Style) {
     match rule {
-        Rule::Fcd => (Role::Sensor, false),
-        Rule::Jfd => (Role::Force, false),
-        Rule::Or => (Role::Bound, false),
-        Rule::And => (Role::Aside, true),
+        Rule::Fcd => (Role::Sensor, Style::Line),
+        Rule::Jfd => (Role::Force, Style::LongDashed),
+        Rule::Or => (Role::Bound, Style::Dotted),
+        Rule::And => (Role::Aside, Style::Dashed),
     }
 }
 
@@ -107,8 +107,9 @@ fn panel(
         let edges = curve.points.iter().map(|point| band(point).unwrap_or([GAP; 2])).collect();
         panel.bands.push(Band { role: curve.role, faint: curve.faint, edges });
         let points = curve.points.iter().map(|point| at(point).unwrap_or(GAP)).collect();
-        let style = if curve.dashed { Style::Dashed } else { Style::Line };
-        panel.series.push(Series { faint: curve.faint, ..Series::new(curve.name.clone(), curve.role, style, points) });
+        panel
+            .series
+            .push(Series { faint: curve.faint, ..Series::new(curve.name.clone(), curve.role, curve.style, points) });
     }
     panel.verticals.push(Vertical { name: "", x: wish, role: Role::Choice });
     panel
@@ -146,8 +147,8 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
 
     let points: Vec<_> = Rule::ALL.iter().map(|&rule| study.curve(cell, rule)).collect();
     let curves = Rule::ALL.iter().zip(&points).map(|(&rule, points)| {
-        let (role, dashed) = look(rule);
-        Curve { name: name(rule).into(), role, dashed, faint: false, points }
+        let (role, style) = look(rule);
+        Curve { name: name(rule).into(), role, style, faint: false, points }
     });
     let mut first = operating(&curves.collect::<Vec<_>>(), rate);
     if !set.is_empty() {
@@ -162,11 +163,11 @@ pub fn chart(study: &Study, wish: &Wish, verdict: &Verdict, partial: bool) -> Ch
     let points: Vec<_> = (0..count).map(|cell| study.curve(cell, wish.rule)).collect();
     let curves = study.cells().iter().zip(&points).enumerate().map(|(k, (cell, points))| {
         let member = Role::Member(k as f64 / (count.max(2) - 1) as f64);
-        let (name, role) = match cell.set.is_empty() {
-            true => ("As set".into(), look(wish.rule).0),
-            false => (plain(&joined(&cell.set)), member),
+        let (name, role, style) = match cell.set.is_empty() {
+            true => ("As set".into(), look(wish.rule).0, Style::Heavy),
+            false => (plain(&joined(&cell.set)), member, Style::Line),
         };
-        Curve { name, role, dashed: false, faint: false, points }
+        Curve { name, role, style, faint: false, points }
     });
     let mut second = delays(&curves.collect::<Vec<_>>(), rate, late(study));
     mark(&mut second, Role::Bound, Style::Dots, own(wish.rule).as_ref().and_then(delay));

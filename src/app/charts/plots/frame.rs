@@ -1,11 +1,12 @@
 //! What lies over every plot: a title with read-outs, the playback position, and the values under the pointer.
 
 use crate::app::charts::notation::{job, note};
-use crate::app::charts::paint::Place;
+use crate::app::charts::paint::{Place, dashed};
 use crate::app::charts::plots::axis::Axis;
 use crate::app::charts::plots::{Touch, View};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use centrode_core::chart::Style;
 use centrode_core::run::Sample;
 use egui::text::LayoutJob;
@@ -122,7 +123,10 @@ impl Frame {
 /// Draws a line in a style.
 fn stroke_line(painter: &Painter, line: Vec<Pos2>, (color, weight): (Color32, f32), style: Style) {
     match style {
-        Style::Dashed => painter.extend(Shape::dashed_line(&line, Stroke::new(1.0, color), 4.0, 3.0)),
+        style if style.dash().is_some() => {
+            let dash = style.dash().unwrap_or_default().map(|length| 8.0 * length as f32);
+            painter.extend(dashed(&line, Stroke::new(weight, color), dash));
+        }
         Style::Thin => drop(painter.line(line, Stroke::new(1.1 * weight, color))),
         _ => drop(painter.line(line, Stroke::new(1.6 * weight, color))),
     }
@@ -154,6 +158,7 @@ impl View<'_> {
         }
         if response.dragged() && self.state.touch == Touch::Scrolls {
             ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
+            finger::pass(ui);
             return;
         }
         let pressed = !touching && response.is_pointer_button_down_on();
@@ -172,7 +177,7 @@ impl View<'_> {
     pub fn cursor(&self, painter: &Painter, dots: &[(f64, Color32)]) {
         let Frame { data, theme, values, .. } = &self.frame;
         let x = painter.round_to_pixel_center(self.frame.time.at(self.cursor));
-        painter.vline(x, data.top()..=data.bottom() + 3.0, Stroke::new(1.5, theme.ink));
+        painter.vline(x, data.top()..=data.bottom() + 3.0, theme.line(1.5, theme.ink));
         let cap = [pos2(x - 4.5, data.top() - 5.0), pos2(x + 4.5, data.top() - 5.0), pos2(x, data.top() + 1.0)];
         painter.add(Shape::convex_polygon(cap.to_vec(), theme.ink, Stroke::NONE));
         for &(value, color) in dots {
@@ -189,7 +194,7 @@ impl View<'_> {
         let (data, theme) = (self.frame.data, &self.frame.theme);
         let sample = self.run.sample_at(time);
         let x = painter.round_to_pixel_center(self.frame.time.at(sample.time));
-        painter.vline(x, data.y_range(), Stroke::new(1.0, theme.dim.gamma_multiply(0.8)));
+        painter.vline(x, data.y_range(), theme.line(1.0, theme.dim.gamma_multiply(0.8)));
         let mut text = vec![job(&Frame::clock(sample.time), SMALL + 1.0, theme.dim)];
         text.extend(lines(&sample));
         note(painter, theme, pos2(x, data.top() + 4.0), data, text);

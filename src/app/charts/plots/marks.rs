@@ -7,6 +7,7 @@ use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::rounded;
 use crate::app::charts::plots::frame::{Frame, SMALL, TEXT};
 use crate::app::command::Command;
+use crate::app::widgets::finger;
 use centrode_core::detect::{Event, Method};
 use centrode_core::study::course::{Measure, measure};
 use egui::{Align2, Color32, CursorIcon, FontId, Galley, Painter, Rect, Sense, Stroke, Ui, pos2, vec2};
@@ -30,6 +31,7 @@ impl View<'_> {
         let x = self.armed_at();
         let zone = Rect::from_x_y_ranges(x - GRAB..=x + GRAB, data.y_range()).intersect(data.expand(GRAB));
         let id = ui.scope_id().with(("armed", self.which));
+        finger::claim(ui, zone);
         let response = ui.interact(zone, id, Sense::DRAG).on_hover_and_drag_cursor(CursorIcon::ResizeHorizontal);
         let strong = response.hovered() || response.dragged();
         if let Some(pos) = response.interact_pointer_pos() {
@@ -46,7 +48,7 @@ impl View<'_> {
         }
         let color = if strong { theme.ink } else { theme.dim };
         let x = painter.round_to_pixel_center(x);
-        painter.vline(x, data.y_range(), Stroke::new(if strong { 2.0 } else { 1.0 }, color));
+        painter.vline(x, data.y_range(), theme.line(if strong { 2.0 } else { 1.0 }, color));
         // A grip of two short lines says that it can be moved.
         let y = data.top() + 22.0;
         let grip = Rect::from_center_size(pos2(x, y), vec2(7.0, 14.0));

@@ -4,6 +4,7 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::{Axis, rounded};
 use crate::app::charts::plots::frame::TEXT;
+use crate::app::widgets::finger;
 use centrode_core::scenario::Threshold;
 use centrode_core::study::course::Measure;
 use egui::{
@@ -13,9 +14,11 @@ use egui::{WidgetInfo, pos2, vec2};
 
 /// Half the height in which the line can be grabbed, points; a finger needs more than a mouse.
 const GRAB: f32 = 8.0;
-const GRAB_TOUCH: f32 = 16.0;
+const GRAB_TOUCH: f32 = 22.0;
 /// Height of the label at the line's end.
 const LABEL: f32 = 24.0;
+/// Width of the switch in it.
+const SWITCH: f32 = 24.0;
 /// From one label to the next, where a plot has several thresholds, points.
 const BESIDE: f32 = 104.0;
 
@@ -54,10 +57,14 @@ impl View<'_> {
         let y = values.at(shown).max(data.top());
         let id = ui.scope_id().with(line.measure.threshold);
 
-        let reach = if ui.input(|input| input.any_touches()) { GRAB_TOUCH } else { GRAB };
+        let fingers = finger::is_welcome(ui) || ui.input(|input| input.any_touches());
+        let reach = if fingers { GRAB_TOUCH } else { GRAB };
         let zone = Rect::from_x_y_ranges(data.x_range(), y - reach..=y + reach).intersect(data.expand(2.0));
         let sense = if on { Sense::DRAG } else { Sense::hover() };
         let response = ui.interact(zone, id, sense);
+        if on {
+            finger::claim(ui, zone);
+        }
         let held = response.dragged();
         if on && (response.hovered() || held) {
             ui.set_cursor_icon(CursorIcon::ResizeVertical);
@@ -81,9 +88,11 @@ impl View<'_> {
         let y = painter.round_to_pixel_center(y);
         let ends = [pos2(data.left(), y), pos2(data.right(), y)];
         match (on, line.judges) {
-            (true, true) => drop(painter.hline(data.x_range(), y, Stroke::new(width, color))),
-            (true, false) => painter.extend(Shape::dashed_line(&ends, Stroke::new(width - 0.5, color), 6.0, 4.0)),
-            (false, _) => painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, color), 2.0, 5.0)),
+            (true, true) => drop(painter.hline(data.x_range(), y, self.frame.theme.line(width, color))),
+            (true, false) => {
+                painter.extend(Shape::dashed_line(&ends, self.frame.theme.line(width - 0.5, color), 6.0, 4.0))
+            }
+            (false, _) => painter.extend(Shape::dashed_line(&ends, self.frame.theme.line(1.0, color), 2.0, 5.0)),
         }
         let half = 0.5 * LABEL;
         let middle = y.clamp(data.top() + half + 1.0, (data.bottom() - half - 5.0).max(data.top() + half + 1.0));
@@ -103,15 +112,18 @@ impl View<'_> {
         let symbol = ui.painter().layout_job(job(threshold, TEXT, ink));
         let widest = format!("{} {unit}", number(shown.max(10.0), decimals));
         let widest = ui.painter().layout_job(job(&widest, TEXT, ink)).size().x;
-        let rect = Rect::from_min_size(at, vec2(24.0 + symbol.size().x + widest + 16.0, LABEL));
+        let rect = Rect::from_min_size(at, vec2(SWITCH + symbol.size().x + widest + 16.0, LABEL));
         let edge = if on { line.color } else { theme.faint };
         ui.painter().rect(rect, 6.0, theme.panel, Stroke::new(1.0, edge), StrokeKind::Inside);
         // Nothing behind the label can be grabbed through it.
         let id = ui.scope_id().with((threshold, "label"));
-        ui.interact(rect, id, Sense::CLICK | Sense::DRAG);
+        ui.interact(finger::around(ui, rect), id, Sense::CLICK | Sense::DRAG);
 
-        let switch = Rect::from_min_size(rect.min, vec2(24.0, rect.height()));
-        let response = ui.interact(switch, id.with("switch"), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
+        let switch = Rect::from_min_size(rect.min, vec2(SWITCH, rect.height()));
+        // For a finger it reaches beyond the label.
+        let hit = finger::around(ui, switch);
+        let hit = hit.translate(vec2(switch.right() - hit.right(), 0.0));
+        let response = ui.interact(hit, id.with("switch"), Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
         let switch_name = format!("{name} on plot, on or off");
         response.widget_info(|| WidgetInfo::selected(egui::Role::CheckBox, ui.is_enabled(), on, &switch_name));
         if response.clicked() {
@@ -131,7 +143,8 @@ impl View<'_> {
         let field = Rect::from_min_max(pos2(at.x + symbol.size().x + 2.0, rect.top()), rect.max).shrink(2.0);
         ui.painter().galley(at, symbol, theme.ink);
 
-        let builder = UiBuilder::new().max_rect(field).layout(Layout::right_to_left(Align::Center)).id_salt(id);
+        let hit = finger::around(ui, field).with_min_x(field.left()).with_max_x(field.right());
+        let builder = UiBuilder::new().max_rect(hit).layout(Layout::right_to_left(Align::Center)).id_salt(id);
         let mut inner = ui.new_child(builder);
         let style = inner.style_mut();
         style.text_styles.insert(style.drag_value_text_style.clone(), FontId::proportional(TEXT));
@@ -143,7 +156,7 @@ impl View<'_> {
         }
         style.widgets.inactive.weak_bg_fill = Color32::TRANSPARENT;
         inner.spacing_mut().button_padding = vec2(3.0, 1.0);
-        inner.spacing_mut().interact_size = vec2(40.0, field.height());
+        inner.spacing_mut().interact_size = vec2(finger::at_least(ui, 40.0), hit.height());
         let before = shown;
         let value = DragValue::new(&mut shown)
             .range(0.0..=f64::MAX)

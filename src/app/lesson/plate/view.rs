@@ -6,6 +6,7 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::lesson::Wish;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::text;
 use egui::accesskit::{Action, ActionData};
 use egui::{
@@ -20,7 +21,7 @@ const MIDDLE: DVec2 = dvec2(0.0, -0.3);
 /// How far the handle of an arrow is from its point.
 const HANDLE: f64 = 0.62;
 /// Size of what is dragged, points.
-const GRIP: f32 = 34.0;
+const GRIP: f32 = 44.0;
 /// Names of both points.
 pub const NAMES: [&str; 2] = ["A", "B"];
 
@@ -180,7 +181,9 @@ fn arrow(ui: &mut Ui, frame: Frame, plate: &Plate, which: usize, theme: &Theme, 
     let along = DVec2::from_angle(angle);
     let grip = frame.at(from + HANDLE * along);
     let id = ui.make_persistent_id(("arrow", which));
-    let response = ui.interact(Rect::from_center_size(grip, egui::Vec2::splat(GRIP)), id, Sense::click_and_drag());
+    let target = Rect::from_center_size(grip, egui::Vec2::splat(GRIP));
+    finger::claim(ui, target);
+    let response = ui.interact(target, id, Sense::click_and_drag());
     let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
     let degrees = angle.to_degrees();
     let label = format!("Direction of arrow {}", NAMES[which]);
@@ -237,7 +240,9 @@ fn head(ui: &Ui, from: Pos2, to: Pos2, color: Color32) {
 fn point(ui: &mut Ui, frame: Frame, plate: &Plate, which: usize, theme: &Theme, out: &mut Vec<Command>) {
     let (place, at) = (plate.point(which), frame.at(plate.point(which)));
     let id = ui.make_persistent_id(("point", which));
-    let response = ui.interact(Rect::from_center_size(at, egui::Vec2::splat(GRIP)), id, Sense::click_and_drag());
+    let target = Rect::from_center_size(at, egui::Vec2::splat(GRIP));
+    finger::claim(ui, target);
+    let response = ui.interact(target, id, Sense::click_and_drag());
     let response = response.on_hover_and_drag_cursor(CursorIcon::Grab);
     let name = format!("Point {}", NAMES[which]);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), &name));

@@ -37,9 +37,9 @@ fn curves<'a>(view: &'a View<'_>) -> Vec<Curve<'a>> {
     let chosen = view.tuning.rule;
     let others = Rule::ALL.iter().copied().filter(|rule| *rule != chosen);
     let curve = |rule: Rule| {
-        let (role, dashed) = look(rule);
+        let (role, style) = look(rule);
         let points = &view.derived.curves[rule as usize];
-        Curve { name: chart::name(rule).into(), role, dashed, faint: rule != chosen, points }
+        Curve { name: chart::name(rule).into(), role, style, faint: rule != chosen, points }
     };
     others.chain([chosen]).map(curve).collect()
 }
