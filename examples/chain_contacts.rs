@@ -84,8 +84,19 @@ fn main() -> Result<(), String> {
                     .filter(|told| told.0)
                     .map(|told| told.1 * told.1)
                     .collect();
+                let held = outcomes
+                    .iter()
+                    .filter(|outcome| outcome.segment == segment && !outcome.early)
+                    .filter_map(|outcome| outcome.told[k])
+                    .filter(|told| told.0 && told.2);
+                let held = 100.0 * held.count() as f64 / squares.len() as f64;
                 let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
-                println!("          segment {}: {:.3} mm RMS of {}", segment + 1, rms * 1e3, squares.len());
+                println!(
+                    "          segment {}: {:.3} mm RMS, {held:.0} % held, of {}",
+                    segment + 1,
+                    rms * 1e3,
+                    squares.len()
+                );
             }
         }
     }

@@ -13,6 +13,7 @@ mod chain;
 #[cfg(feature = "cli")]
 mod chain_command;
 mod chain_properties;
+mod chain_run;
 #[cfg(feature = "cli")]
 mod cli;
 mod compare;

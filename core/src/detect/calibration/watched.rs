@@ -64,7 +64,7 @@ impl Watched {
     #[must_use]
     pub fn earliest(&self, alarm: usize) -> Option<usize> {
         let begin = self.clear_by(alarm)?;
-        Some(alarm.saturating_sub(BEFORE).min(begin.saturating_sub(EARLIER + (alarm - begin) / 4)))
+        Some(begin.saturating_sub(EARLIER + (alarm - begin) / 4))
     }
 
     /// The last reading at or before one at which the cumulative sum was zero: as it has it, no contact that holds there had begun by then.

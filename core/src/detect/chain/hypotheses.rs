@@ -16,7 +16,7 @@ use libm::cos;
 use std::f64::consts::PI;
 
 /// Beginnings, and times after each, at which shapes are solved.
-const BEGINNINGS: usize = 4;
+const BEGINNINGS: usize = 5;
 const TIMES: usize = 6;
 /// Readings to either side over which angles are smoothed by a parabola.
 const SMOOTHED: usize = 8;
