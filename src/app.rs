@@ -492,6 +492,7 @@ impl App {
         if let Some(notice) = &sharing.notice {
             panels::notice::notice(ui, notice, out);
         }
+        layout::part(ui, "symbols", |ui| widgets::symbol::links(ui, out));
     }
 }
 

@@ -11,6 +11,7 @@ use crate::app::state::State;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 use centrode_core::scenario::Scenario;
 use egui::{
@@ -133,7 +134,7 @@ pub fn card(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, out: &mut Vec<Command>
 /// Paints a text where the layout goes on, with what it is to assistive technology.
 pub(super) fn written(ui: &mut Ui, galley: Arc<Galley>, said: &str, role: Role) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y), Sense::hover());
-    ui.painter().galley(rect.min, galley, Theme::of(ui).ink);
+    symbol::galley(ui.painter(), rect.min, galley, Theme::of(ui).ink);
     response.widget_info(|| WidgetInfo::labeled(role, true, said));
     response
 }
@@ -191,7 +192,7 @@ fn task(ui: &mut Ui, step: &Step, done: bool, theme: &Theme) {
     ui.painter().rect(rect, 8.0, theme.raised, Stroke::new(1.0, color.gamma_multiply(0.6)), StrokeKind::Inside);
     sign(ui, pos2(rect.left() + 15.0, rect.top() + 7.0 + 0.72 * SIZE), done, theme);
     let (said, galley) = if done { (step.noticed, noticed) } else { (step.task, task) };
-    ui.painter().galley(rect.min + vec2(SIGN + 4.0, 7.0), galley, theme.ink);
+    symbol::galley(ui.painter(), rect.min + vec2(SIGN + 4.0, 7.0), galley, theme.ink);
     let heard = if done { format!("Done. {said}") } else { format!("To do: {said}") };
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &heard));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));

@@ -5,6 +5,7 @@ use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, UiBuil
 use crate::app::fonts;
 use crate::app::mirror;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 
 /// One option.
@@ -102,7 +103,9 @@ fn parts(
         if response.clicked() {
             clicked = Some(i);
         }
-        if !option.hint.is_empty() {
+        if option.hint.is_empty() {
+            symbol::names(response, option.text);
+        } else {
             response.on_hover_text(option.hint);
         }
     }

@@ -6,6 +6,7 @@ use crate::app::charts::legend::{self, Entry, Form};
 use crate::app::fonts;
 use crate::app::lesson::captions::{self, Caption};
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::scene::{Camera, Label, Pose, Scene, Solid, arc};
 use crate::show::obstacle::only_touches;
 use centrode_core::run::Run;
@@ -136,7 +137,7 @@ fn labels(ui: &Ui, view: &View<'_>, theme: &Theme, scene: &Scene, mut taken: Vec
         };
         let Some(at) = places(anchor, label, text.size()).map(slid).find(free) else { continue };
         painter.rect_filled(at, 5.0, theme.panel.gamma_multiply(0.86));
-        painter.galley(at.min + vec2(5.0, 2.0), text, ink);
+        symbol::galley(&painter, at.min + vec2(5.0, 2.0), text, ink);
         taken.push(at);
     }
 }
