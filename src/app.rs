@@ -44,7 +44,7 @@ use helper::Helper;
 use helper::lent::Lent;
 use layout::Layout;
 use lesson::captions::{self, Captions};
-use lesson::{At, Lesson, Wish};
+use lesson::{At, Lesson};
 use link::Sharing;
 use log::Logs;
 use memo::{Memo, Refusal};
@@ -237,9 +237,7 @@ impl App {
             // Before the keys are taken.
             self.captions.go_on(self.state.playing, captions::touched(ui));
             keys::read(ui, self.end(), self.state.stage, self.holder(ui), &mut out);
-            if let Some(step) = self.lesson.due.take() {
-                out.push(Command::Lesson(Wish::Tour(step)));
-            }
+            out.extend(self.lesson.due.take().map(Command::Lesson));
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
