@@ -125,11 +125,11 @@ fn progress_is_handed_out_and_comes_back() {
 fn a_challenge_is_linked_to_as_a_step_of_the_tour_is() {
     let address = |page: &mut Page| {
         let effects = page.state_mut().as_mut().expect("built").take_effects().into_iter();
-        let told = effects.filter_map(|effect| match effect {
+        let mut told = effects.filter_map(|effect| match effect {
             Effect::Address { fragment, .. } => Some(fragment),
             _ => None,
         });
-        told.last()
+        told.next_back()
     };
     let at = |page: &Page| app(page).state().lesson;
     assert_eq!(CHALLENGES.each_ref().map(|of| of.key), *link::page::CHALLENGES);
