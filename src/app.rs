@@ -491,6 +491,7 @@ impl App {
             panels::notice::notice(ui, notice, out);
         }
         layout::part(ui, "symbols", |ui| widgets::symbol::links(ui, out));
+        widgets::focus::frame(ui);
     }
 }
 

@@ -259,9 +259,6 @@ pub(super) fn on_accent(ui: &mut Ui, rect: Rect, label: &str, prominent: bool, t
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
     let fill = theme.accent.lerp_to_gamma(theme.ink, if response.hovered() { 0.12 } else { 0.0 });
     ui.painter().rect_filled(rect, 7.0, fill);
-    if response.has_focus() {
-        ui.painter().rect_stroke(rect, 7.0, Stroke::new(2.0, theme.ink), StrokeKind::Outside);
-    }
     text::paint(ui, rect.center(), Align2::CENTER_CENTER, label, fonts::strong(13.0), theme.on_accent);
     response.clicked()
 }

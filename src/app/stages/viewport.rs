@@ -12,7 +12,6 @@ use egui::{Align2, CursorIcon, EventFilter, Key, PointerButton, Rect, Response, 
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
-use crate::app::widgets::focus;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::{Palette, Shade};
@@ -184,7 +183,6 @@ pub fn viewport(
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked()
         || response.double_clicked()
         || home_asked;
-    focus::ring(ui, rect.shrink(2.0), &response);
     // A camera is kept only when it was moved: until then it follows the robot's size.
     state.camera = (!reset && camera != home).then_some(camera);
 }

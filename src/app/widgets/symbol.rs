@@ -14,7 +14,6 @@ use egui::{Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use crate::app::command::Command;
 use crate::app::theme::Theme;
-use crate::app::widgets::focus;
 use crate::app::widgets::text::rich;
 use centrode_core::symbols::{Symbol, spans, within};
 
@@ -115,7 +114,6 @@ fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
         let y = ui.painter().round_to_pixel_center(rect.bottom() - AROUND.y);
         ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, Theme::of(ui).dim));
     }
-    focus::ring(ui, rect.expand(1.5), &response);
     if response.clicked() {
         // A finger cannot point without a touch: its first one names the symbol.
         let finger = ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Touch { .. })));

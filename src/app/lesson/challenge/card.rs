@@ -78,9 +78,8 @@ fn item(ui: &mut Ui, of: &Challenge, met: bool, theme: &Theme) -> bool {
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, of.title));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(if met { "Met" } else { "Not met yet" }));
     let warm = if response.hovered() { 0.06 } else { 0.0 };
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
     let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
-    ui.painter().rect(rect, 8.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+    ui.painter().rect(rect, 8.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
     card::sign(ui, rect.left_center() + vec2(18.0, 0.0), met, theme);
     let at = rect.left_center() + vec2(36.0, 0.0);
     text::paint(ui, at, Align2::LEFT_CENTER, of.title, fonts::strong(13.5), theme.ink);
