@@ -148,8 +148,10 @@ fn a_finger_names_a_symbol_first_and_opens_it_then() {
     for (tap, wanted) in [(1, &[][..]), (2, &["theory.html#sym-c-s".to_owned()])] {
         press(&mut page, at, Some(TouchId(1)));
         assert_eq!(opened(&mut page), wanted, "tap {tap}");
+        page.event(Event::PointerGone);
         page.run_steps(3);
-        assert_eq!(named(&page), [find("c-s").expect("a symbol").line().replace('_', "")]);
+        let names = named(&page);
+        assert_eq!(names.len(), 2 - tap, "{names:?} after tap {tap}");
     }
 }
 

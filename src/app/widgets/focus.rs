@@ -23,7 +23,8 @@ pub fn around(ui: &Ui, widget: Id, rect: Rect) {
 
 /// Frames the widget that has the keyboard, whichever it is. At the end of a pass: nothing of its layer is painted over it.
 pub fn frame(ui: &Ui) {
-    let Some(widget) = ui.memory(egui::Memory::focused) else { return };
+    let has_keyboard = ui.input(|input| input.focused);
+    let Some(widget) = ui.memory(egui::Memory::focused).filter(|_| has_keyboard) else { return };
     let Some(response) = ui.ctx().read_response(widget) else { return };
     let around = ui.data(|data| data.get_temp::<Around>(Id::NULL)).filter(|around| around.0 == widget);
     // What is scrolled half out of sight is framed where it can be seen.

@@ -33,6 +33,10 @@ struct Spot {
 #[derive(Clone, Default)]
 struct Noted(Vec<Spot>);
 
+/// The place that a finger has named last, until it touches another.
+#[derive(Clone, Copy, PartialEq)]
+struct Named(Id);
+
 /// Paints a text and notes its symbols.
 pub fn galley(painter: &Painter, at: Pos2, galley: Arc<Galley>, ink: Color32) {
     note(painter, &galley, |rect| rect.translate(at.to_vec2()));
@@ -103,10 +107,9 @@ pub fn links(ui: &mut Ui, out: &mut Vec<Command>) {
 
 fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
     let Spot { symbol, rect, .. } = *spot;
-    let walked = first || ui.memory(|memory| memory.has_focus(id));
-    let sense = if walked { Sense::click() } else { Sense::CLICK };
+    let sense = if first { Sense::click() } else { Sense::CLICK };
     let response = ui.interact(rect, id, sense).on_hover_cursor(CursorIcon::PointingHand);
-    if walked {
+    if first {
         response
             .widget_info(|| WidgetInfo::labeled(Role::Link, ui.is_enabled(), format!("Theory: {}", spoken(symbol))));
     }
@@ -114,28 +117,41 @@ fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
         let y = ui.painter().round_to_pixel_center(rect.bottom() - AROUND.y);
         ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, Theme::of(ui).dim));
     }
-    if response.clicked() {
-        // A finger cannot point without a touch: its first one names the symbol.
-        let finger = ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Touch { .. })));
-        if finger && !response.has_focus() {
-            response.request_focus();
-        } else {
-            out.push(Command::Theory(Some(symbol)));
-        }
+    let tapped = tapped(ui, &response);
+    if response.clicked() && !tapped {
+        out.push(Command::Theory(Some(symbol)));
     }
+    let how = match (tapped, response.has_focus()) {
+        (true, _) => "Tap again",
+        (_, true) => "Enter",
+        _ => "Click",
+    };
     let names = |ui: &mut Ui| {
         named(ui, symbol);
-        ui.weak(if ui.input(egui::InputState::has_touch_screen) {
-            "Tap again: its place in the theory"
-        } else {
-            "Click: its place in the theory"
-        });
+        ui.weak(format!("{how}: its place in the theory"));
     };
-    if response.has_focus() {
+    if tapped || response.has_focus() {
         response.show_tooltip_ui(names);
     } else {
         response.on_hover_ui(names);
     }
+}
+
+/// Whether a finger has named a symbol and not opened it: it cannot point without a touch, so that its first one names.
+fn tapped(ui: &Ui, response: &Response) -> bool {
+    let own = Named(response.id);
+    let named = ui.data(|data| data.get_temp::<Named>(Id::NULL)) == Some(own);
+    let finger = ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Touch { .. })));
+    let elsewhere = ui.input(|input| input.pointer.any_pressed()) && !response.is_pointer_button_down_on();
+    if response.clicked() && finger && !named {
+        ui.data_mut(|data| data.insert_temp(Id::NULL, own));
+        return true;
+    }
+    if named && (response.clicked() || elsewhere) {
+        ui.data_mut(|data| data.remove::<Named>(Id::NULL));
+        return false;
+    }
+    named
 }
 
 /// Names the symbols of what is written on a button under the pointer.
