@@ -4,7 +4,7 @@ use crate::support::{DESK, Page, app, page_of, texts};
 use centrode::app::link::Effect;
 use centrode_core::symbols::{SYMBOLS, find};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, TouchDeviceId, TouchId, TouchPhase};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -133,39 +133,19 @@ fn the_symbols_of_legends_axes_and_thresholds_are_found_by_the_pointer() {
         let at = page.get_by_label(switch).rect().right_center() + egui::vec2(4.0, 0.0);
         assert_eq!(point(&mut page, at), [find(id).expect("a symbol").line().replace('_', "")], "{id}");
         opened(&mut page);
-        press(&mut page, at, None);
+        press(&mut page, at);
         assert_eq!(opened(&mut page), [format!("theory.html#sym-{id}")]);
     }
     let legend = link(&page, "c-m").rect();
     assert_eq!(point(&mut page, legend.center()).len(), 1);
 }
 
-#[test]
-fn a_finger_names_a_symbol_first_and_opens_it_then() {
-    let mut page = page_of(DESK);
-    let at = link(&page, "c-s").rect().center();
-    opened(&mut page);
-    for (tap, wanted) in [(1, &[][..]), (2, &["theory.html#sym-c-s".to_owned()])] {
-        press(&mut page, at, Some(TouchId(1)));
-        assert_eq!(opened(&mut page), wanted, "tap {tap}");
-        page.event(Event::PointerGone);
-        page.run_steps(3);
-        let names = named(&page);
-        assert_eq!(names.len(), 2 - tap, "{names:?} after tap {tap}");
-    }
-}
-
-/// Presses and lets go at a place, with a finger or the mouse.
-fn press(page: &mut Page, pos: Pos2, finger: Option<TouchId>) {
-    let touch = |phase| finger.map(|id| Event::Touch { device_id: TouchDeviceId(1), id, phase, pos, force: None });
+/// Presses and lets go at a place.
+fn press(page: &mut Page, pos: Pos2) {
     page.event(Event::PointerMoved(pos));
-    for (pressed, phase) in [(true, TouchPhase::Start), (false, TouchPhase::End)] {
+    for pressed in [true, false] {
         let modifiers = Modifiers::NONE;
-        // Together, as a browser tells them.
-        let events = &mut page.input_mut().events;
-        events.push(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers });
-        events.extend(touch(phase));
-        page.step();
+        page.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers });
     }
     page.run_steps(2);
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use egui::epaint::TextShape;
 use egui::text::{CCursor, LayoutJob};
 use egui::text_selection::LabelSelectionState;
-use egui::{Color32, CursorIcon, Event, Galley, Id, Label, LayerId, Painter, Pos2, Rect, Response, Role};
+use egui::{Color32, CursorIcon, Galley, Id, Label, LayerId, Painter, Pos2, Rect, Response, Role};
 use egui::{Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use crate::app::command::Command;
@@ -32,10 +32,6 @@ struct Spot {
 /// What was noted in this pass.
 #[derive(Clone, Default)]
 struct Noted(Vec<Spot>);
-
-/// The place that a finger has named last, until it touches another.
-#[derive(Clone, Copy, PartialEq)]
-struct Named(Id);
 
 /// Paints a text and notes its symbols.
 pub fn galley(painter: &Painter, at: Pos2, galley: Arc<Galley>, ink: Color32) {
@@ -117,41 +113,19 @@ fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
         let y = ui.painter().round_to_pixel_center(rect.bottom() - AROUND.y);
         ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, Theme::of(ui).dim));
     }
-    let tapped = tapped(ui, &response);
-    if response.clicked() && !tapped {
+    if response.clicked() {
         out.push(Command::Theory(Some(symbol)));
     }
-    let how = match (tapped, response.has_focus()) {
-        (true, _) => "Tap again",
-        (_, true) => "Enter",
-        _ => "Click",
-    };
+    let how = if response.has_focus() { "Enter" } else { "Click" };
     let names = |ui: &mut Ui| {
         named(ui, symbol);
         ui.weak(format!("{how}: its place in the theory"));
     };
-    if tapped || response.has_focus() {
+    if response.has_focus() {
         response.show_tooltip_ui(names);
     } else {
         response.on_hover_ui(names);
     }
-}
-
-/// Whether a finger has named a symbol and not opened it: it cannot point without a touch, so that its first one names.
-fn tapped(ui: &Ui, response: &Response) -> bool {
-    let own = Named(response.id);
-    let named = ui.data(|data| data.get_temp::<Named>(Id::NULL)) == Some(own);
-    let finger = ui.input(|input| input.events.iter().any(|event| matches!(event, Event::Touch { .. })));
-    let elsewhere = ui.input(|input| input.pointer.any_pressed()) && !response.is_pointer_button_down_on();
-    if response.clicked() && finger && !named {
-        ui.data_mut(|data| data.insert_temp(Id::NULL, own));
-        return true;
-    }
-    if named && (response.clicked() || elsewhere) {
-        ui.data_mut(|data| data.remove::<Named>(Id::NULL));
-        return false;
-    }
-    named
 }
 
 /// Names the symbols of what is written on a button under the pointer.
