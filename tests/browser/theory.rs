@@ -137,14 +137,3 @@ fn a_reader_hears_of_each_symbol_once_behind_everything_else() {
     let last = "[...document.querySelectorAll('section > h2')].at(-1).textContent";
     assert_eq!(page.eval(last), "Symbols");
 }
-
-#[test]
-fn a_tap_on_a_symbol_opens_its_place_too() {
-    let mut page = Page::open(Renderer::WebGl, "?test#t=6.3", Options::phone());
-    page.eval("window.open = (address) => { window.opened = String(address); return null; }; 1");
-    let at = page.widget("Link", "Theory: cs, centrode that the tracker measures").at(0.5);
-    page.tap(at);
-    let address = page.wait("a tab", |page| page.eval("window.opened ?? null").as_str().map(str::to_owned));
-    assert!(address.ends_with("/deep/path/theory.html#sym-c-s"), "{address}");
-    assert_eq!(page.problems(), Vec::<String>::new());
-}
