@@ -45,7 +45,7 @@ use helper::Helper;
 use helper::lent::Lent;
 use layout::Layout;
 use lesson::captions::{self, Captions};
-use lesson::{At, Lesson, Wish};
+use lesson::{At, Lesson};
 use link::Sharing;
 use log::Logs;
 use memo::{Memo, Refusal};
@@ -206,9 +206,7 @@ impl App {
             // Before the keys are taken.
             self.captions.go_on(self.state.playing, captions::touched(ui));
             keys::read(ui, self.end(), self.state.stage, self.holder(ui), &mut out);
-            if let Some(step) = self.lesson.due.take() {
-                out.push(Command::Lesson(Wish::Tour(step)));
-            }
+            out.extend(self.lesson.due.take().map(Command::Lesson));
             self.advance(ui);
             self.apply(ui.ctx(), &mut out);
             if self.work_log() {
@@ -464,6 +462,8 @@ impl App {
         if let Some(notice) = &sharing.notice {
             panels::notice::notice(ui, notice, out);
         }
+        layout::part(ui, "symbols", |ui| widgets::symbol::links(ui, out));
+        widgets::focus::frame(ui);
     }
 }
 

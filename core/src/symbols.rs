@@ -3,6 +3,7 @@
 //! The page names a symbol under the pointer from this table, and `theory.html` makes its table of symbols from it.
 
 use crate::chart::notation::printed;
+use std::ops::Range;
 
 /// A symbol of the model, of the detectors or of their settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -104,7 +105,7 @@ pub fn find(id: &str) -> Option<&'static Symbol> {
     SYMBOLS.iter().find(|symbol| symbol.id == id)
 }
 
-/// The symbols that a label holds, in its order, each once: `k in k·ε_c(θL)` has k, ε_c and θ_L. A letter alone in brackets is a unit,
+/// The symbols that a label holds, in its order, each once: `k in k·ε_c(θL)` has k, ε_c and θ_L. What is a unit there is no symbol,
 /// and `‖c_m − c_s‖` is one symbol.
 ///
 /// ```
@@ -117,25 +118,75 @@ pub fn find(id: &str) -> Option<&'static Symbol> {
 /// ```
 #[must_use]
 pub fn within(label: &str) -> Vec<&'static Symbol> {
-    let mut rest: String = bare(&printed(label));
-    let mut found: Vec<(usize, &'static Symbol)> = Vec::new();
+    let mut found: Vec<&'static Symbol> = Vec::new();
+    for (_, symbol) in spans(&bare(&printed(label))) {
+        if found.iter().all(|other| other.id != symbol.id) {
+            found.push(symbol);
+        }
+    }
+    found
+}
+
+/// Where symbols stand in a text as it is drawn, without what lowers characters: ranges of characters, not of bytes.
+///
+/// ```
+/// use centrode_core::symbols::spans;
+///
+/// let at = spans("ξ2 is 7 mm").into_iter().map(|(at, symbol)| (at, symbol.id)).collect::<Vec<_>>();
+/// assert_eq!(at, [(0..2, "xi2")]);
+/// ```
+#[must_use]
+pub fn spans(drawn: &str) -> Vec<(Range<usize>, &'static Symbol)> {
+    let mut rest: Vec<char> = drawn.chars().collect();
+    let mut found = Vec::new();
     for symbol in SYMBOLS.iter().filter(|symbol| symbol.text.starts_with('‖')) {
-        if let Some(at) = rest.find(&bare(symbol.text)) {
-            found.push((at, symbol));
-            let text = bare(symbol.text);
-            rest.replace_range(at..at + text.len(), &" ".repeat(text.len()));
-        }
-    }
-    for (at, word) in words(&rest) {
-        let bracketed = rest[..at].ends_with('(') && rest[at + word.len()..].starts_with(')');
-        let unit = bracketed && word.len() == 1;
-        let symbol = SYMBOLS.iter().find(|symbol| bare(symbol.text) == word && !unit);
-        if let Some(symbol) = symbol.filter(|symbol| found.iter().all(|(_, other)| other.id != symbol.id)) {
+        let whole: Vec<char> = bare(symbol.text).chars().collect();
+        let mut from = 0;
+        while let Some(at) = rest[from..].windows(whole.len()).position(|window| window == whole) {
+            let at = from + at..from + at + whole.len();
+            from = at.end;
+            rest[at.clone()].fill(' ');
             found.push((at, symbol));
         }
     }
-    found.sort_by_key(|(at, _)| *at);
-    found.into_iter().map(|(_, symbol)| symbol).collect()
+    for at in words(&rest) {
+        let word: String = rest[at.clone()].iter().collect();
+        let symbol = SYMBOLS.iter().find(|symbol| symbol.text.chars().filter(|c| *c != '_').eq(word.chars()));
+        if let Some(symbol) = symbol.filter(|symbol| !is_unit(&rest, &at) && can_be(symbol, &rest[at.end..])) {
+            found.push((at, symbol));
+        }
+    }
+    found.sort_by_key(|(at, _)| at.start);
+    found
+}
+
+/// Names of units that are symbols, too, and of those that stand beside them.
+const UNITS: [&str; 9] = ["s", "N", "m", "mm", "ms", "mN", "Nm", "rad", "J"];
+
+/// Whether a symbol can be meant where `behind` follows: what has no unit of its own has none in brackets, as time has in `t (s)`.
+fn can_be(symbol: &Symbol, behind: &[char]) -> bool {
+    let unit = |unit: &str| behind.iter().copied().take(unit.chars().count() + 3).eq(format!(" ({unit})").chars());
+    !symbol.unit.is_empty() || !UNITS.iter().any(|name| unit(name))
+}
+
+/// Whether a word is a unit where it stands: behind a number or what stands for one, in a product or a quotient of units, or
+/// alone in brackets or altogether.
+fn is_unit(text: &[char], at: &Range<usize>) -> bool {
+    let apart = |c: &char| c.is_whitespace() || "()[],;:".contains(*c);
+    let from = text[..at.start].iter().rposition(apart).map_or(0, |k| k + 1);
+    let to = text[at.end..].iter().position(apart).map_or(text.len(), |k| at.end + k);
+    let words: Vec<Range<usize>> = words(&text[from..to]);
+    let known = |word: &Range<usize>| {
+        let word: String = text[from..to][word.clone()].iter().collect();
+        word.chars().all(|c| c.is_numeric()) || UNITS.contains(&word.as_str())
+    };
+    if !words.iter().all(known) {
+        return false;
+    }
+    let before = text[..from].iter().rfind(|c| !c.is_whitespace());
+    let bracketed = from > 0 && text[from - 1] == '(' && text.get(to) == Some(&')');
+    let alone = at.len() == text.len();
+    words.len() > 1 || bracketed || alone || before.is_some_and(|c| c.is_numeric() || "–…".contains(*c))
 }
 
 /// Without what lowers characters: labels lower them or not.
@@ -143,15 +194,16 @@ fn bare(text: &str) -> String {
     text.replace('_', "")
 }
 
-/// The words of a text, with their places.
-fn words(text: &str) -> Vec<(usize, &str)> {
+/// The words of a text, by their places.
+fn words(text: &[char]) -> Vec<Range<usize>> {
     let mut words = Vec::new();
     let mut start = None;
-    for (at, character) in text.char_indices().chain([(text.len(), ' ')]) {
-        match (character.is_alphanumeric(), start) {
+    for (at, character) in text.iter().chain([&' ']).enumerate() {
+        // What follows an apostrophe belongs to its word.
+        match (character.is_alphanumeric() || "'’".contains(*character), start) {
             (true, None) => start = Some(at),
             (false, Some(from)) => {
-                words.push((from, &text[from..at]));
+                words.push(from..at);
                 start = None;
             }
             _ => {}
@@ -190,7 +242,9 @@ mod tests {
 
     #[test]
     fn words_without_symbols_have_none() {
-        for label in ["Contact disk", "Release", "Force y", "Time (s)", "Seed", ""] {
+        let none = ["Contact disk", "Release", "Force y", "Time (s)", "Seed", "The tracker's", ""];
+        let units = ["6.28 s", "7\u{a0}s later", "– s", "0.12 N", "Speed (mm/s)", "N·m", "t (s)", "s"];
+        for label in none.into_iter().chain(units) {
             assert_eq!(within(label), [] as [&Symbol; 0], "{label}");
         }
         let ids = |label| within(label).iter().map(|symbol| symbol.id).collect::<Vec<_>>();
@@ -198,5 +252,6 @@ mod tests {
         assert_eq!(ids("Length L"), ["l"]);
         assert_eq!(ids("ξ2 (centrode)"), ["xi2"]);
         assert_eq!(ids("Load cell error ε_τ"), ["epsilon-tau"]);
+        assert_eq!(ids("Arc length s (mm), force F (N), N of 250"), ["s", "f", "n"]);
     }
 }

@@ -81,10 +81,7 @@ impl App {
                 }),
                 Command::Reset(control) => self.restore(control.key, |from, to| control.copy(from, to)),
                 Command::ResetChoice(choice) => self.restore(choice.of.path, |from, to| choice.of.copy(from, to)),
-                Command::NextTheme => {
-                    self.state.theme = self.state.theme.next();
-                    theme::choose(ctx, self.state.theme);
-                }
+                Command::NextTheme => self.state.theme = self.state.theme.next(),
                 Command::Fold(group) => {
                     if !self.state.folded.remove(group) {
                         self.state.folded.insert(group.into());
@@ -112,6 +109,7 @@ impl App {
                 Command::CopyNotice => self.copy_notice(ctx),
             }
         }
+        theme::follow(ctx, self.state.theme);
     }
 
     /// What is asked for in a sheet that only peeks out is wanted whole; returns whether it only did.

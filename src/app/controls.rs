@@ -22,7 +22,7 @@ use crate::app::mirror;
 use crate::app::panels::sheet;
 use crate::app::state::State;
 use crate::app::theme::Theme;
-use crate::app::widgets::{focus, icon, text};
+use crate::app::widgets::{icon, text};
 use crate::app::words::log;
 use centrode_core::scenario::Scenario;
 use row::Context;
@@ -82,7 +82,6 @@ fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut
     let ink = if response.hovered() || response.has_focus() { theme.ink } else { theme.dim };
     text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, group.name, fonts::strong(12.5), theme.ink);
     icon::chevron(ui.painter(), rect.right_center() - vec2(6.0, 0.0), shown, ink);
-    focus::ring(ui, rect, &response);
     if response.clicked() {
         out.push(Command::Fold(group.name));
     }

@@ -341,7 +341,7 @@ pub fn round(ui: &Ui, rect: Rect) {
 }
 
 /// What the parts of the page are called by those who do not see them; others are parts of these.
-const PARTS: [(&str, &str); 10] = [
+const PARTS: [(&str, &str); 11] = [
     ("title", "Experiment"),
     ("views", "Views"),
     ("tools", "Tools"),
@@ -352,6 +352,7 @@ const PARTS: [(&str, &str); 10] = [
     ("readout", "Result"),
     ("plots", "Plots"),
     ("plane", "Bending plane"),
+    ("symbols", "Symbols"),
 ];
 
 /// Shows a part of the page that keeps to its place by itself.

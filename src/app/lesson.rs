@@ -19,7 +19,6 @@ use crate::app::state::State;
 use challenge::check::{Check, Verdict};
 use plate::Plate;
 use progress::Progress;
-use tour::STEPS;
 
 /// Where one is in the lessons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -61,12 +60,10 @@ pub enum Wish {
 pub struct Lesson {
     /// What was set before.
     pub(super) kept: Option<Kept>,
-    /// The step that a link asks for, until the page goes there.
-    pub(super) due: Option<usize>,
+    /// What a link asks for, until the page goes there.
+    pub(super) due: Option<Wish>,
     /// When the run was first detected as the step began, s; none before that is known.
     began: Option<Option<f64>>,
-    /// The steps that are done.
-    done: [bool; STEPS],
     /// How far the person has come.
     progress: Progress,
     /// The same as the surroundings keep it; none where they keep nothing.
@@ -102,7 +99,7 @@ impl Lesson {
     /// Whether a step has been done.
     #[must_use]
     pub fn is_done(&self, step: usize) -> bool {
-        self.done.get(step).copied().unwrap_or(false)
+        self.progress.done.contains(&(step + 1))
     }
 
     /// Whether a challenge has been met, by its name.

@@ -10,12 +10,14 @@ use egui::Ui;
 use super::App;
 use crate::app::command::Share;
 use crate::app::embed::Embed;
-use crate::app::lesson::At;
+use crate::app::lesson::challenge::{self, CHALLENGES};
+use crate::app::lesson::{At, Wish};
 use crate::app::log::file::{File, is_log};
 use crate::app::memo;
 use crate::app::panels::notice::Notice;
 use crate::app::stages::stage::{Section, Stage};
 use crate::app::state::{self, State, Tuning};
+use crate::app::theme::ThemeChoice;
 use crate::app::words::{self, refusal};
 use crate::render::Pixels;
 use centrode_core::scenario::link::{Link, Page};
@@ -160,6 +162,8 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
         repeats: state.tuning.repeats as u64,
         compare: state.tuning.compare,
         tour: None,
+        challenge: None,
+        theme: state.theme.key(),
     }
 }
 
@@ -196,9 +200,14 @@ impl App {
         self.memo.update(&self.state.scenario);
         self.sharing.told = self.current();
         // A frame has no room for it.
-        let tour = read.page.tour.filter(|_| self.embed.is_none());
-        self.lesson.due = tour.and_then(|step| usize::try_from(step).ok()?.checked_sub(1));
-        self.sharing.told.2.tour = tour;
+        let Page { tour, challenge, .. } = read.page;
+        let step = tour.and_then(|step| usize::try_from(step).ok()?.checked_sub(1)).map(Wish::Tour);
+        self.lesson.due = step.or_else(|| challenge.and_then(challenge::named)).filter(|_| self.embed.is_none());
+        (self.sharing.told.2.tour, self.sharing.told.2.challenge) = match self.lesson.due {
+            Some(Wish::Tour(_)) => (tour, None),
+            Some(_) => (None, challenge),
+            None => (None, None),
+        };
     }
 
     /// Opens the theory, at a symbol or at its beginning.
@@ -217,7 +226,8 @@ impl App {
                 self.state.time = state::lead_in(link.scenario());
             }
         }
-        let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare, tour: _ } = link.page;
+        let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare, theme, .. } = link.page;
+        self.state.theme = theme.and_then(ThemeChoice::named).unwrap_or(self.state.theme);
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
         if let Some(only) = self.embed.and_then(Embed::stage) {
             self.state.stage = only;
@@ -244,8 +254,11 @@ impl App {
             let scenario = Draft::from_bytes(&bytes).and_then(Draft::finish);
             let scenario = scenario.and_then(|scenario| memo::check(&scenario).map(|()| scenario));
             let scenario = scenario.map_err(|refused| refusal::told(&refused))?;
-            Link::nearest(&scenario, page(&State { playing: true, ..self.own().0.clone() }, 0.0))
-                .map_err(|refused| refused.to_string())
+            Link::nearest(
+                &scenario,
+                page(&State { playing: true, theme: self.state.theme, ..self.own().0.clone() }, 0.0),
+            )
+            .map_err(|refused| refused.to_string())
         });
         match read {
             Ok(link) => {
@@ -267,14 +280,15 @@ impl App {
         (own.preset.clone(), own.scenario.clone(), self.own_page())
     }
 
-    /// What the address says of the page: what the person has set, and the step of the tour above it.
+    /// What the address says of the page: what the person has set, and the step of the tour or the challenge above it.
     fn own_page(&self) -> Page {
         let (own, cursor) = self.own();
-        let tour = match self.state.lesson {
-            Some(At::Tour(step)) => Some(step as u64 + 1),
-            _ => None,
+        let (tour, challenge) = match self.state.lesson {
+            Some(At::Tour(step)) => (Some(step as u64 + 1), None),
+            Some(At::Challenge(which)) => (None, Some(CHALLENGES[which].key)),
+            _ => (None, None),
         };
-        Page { tour, ..page(own, cursor) }
+        Page { tour, challenge, theme: self.state.theme.key(), ..page(own, cursor) }
     }
 
     /// The link to what the address says.
@@ -302,7 +316,8 @@ impl App {
         if same && *page_told == page {
             return;
         }
-        let passing = Page { time: page.time, speed: page.speed, looping: page.looping, ..page_told.clone() };
+        let passing =
+            Page { time: page.time, speed: page.speed, looping: page.looping, theme: page.theme, ..page_told.clone() };
         // A key held down on a slider is one step, not one for every repeat.
         let again = slid.is_some() && slid == self.sharing.slid_before && !released;
         let step = !(again || same && passing == page);

@@ -142,11 +142,16 @@ impl Memo {
         Some(log)
     }
 
-    /// Shows a log again that was set aside, as the scenario now asks; it stays away if it no longer fits.
+    /// Shows a log again that was set aside, as the scenario now asks, or as it was if the scenario no longer fits.
     pub fn put_back(&mut self, log: Recorded) {
-        if let Ok((log, run)) = log.again(&self.wanted) {
+        let (made, refused) = match log.again(&self.wanted) {
+            Ok(made) => (Some(made), None),
+            Err(refused) => (log.as_it_was().ok(), Some(refused)),
+        };
+        if let Some((log, run)) = made {
             self.recorded = Some(log);
             self.show(run);
+            self.refusal = self.refusal.take().or(refused.map(Refusal::Log));
         }
     }
 
@@ -242,6 +247,25 @@ mod tests {
         assert!(message.contains("robot.length") && message.contains("-1"), "{message}");
         assert!(memo.update(&Scenario::default()));
         assert_eq!(memo.refusal(), None);
+    }
+
+    #[test]
+    fn a_log_that_is_put_back_where_it_does_not_fit_is_shown_as_it_was() {
+        let bytes = include_bytes!("../../assets/logs/clean.csv").to_vec();
+        let log = Log::read("clean.csv", bytes, &Default::default()).expect("an example");
+        let mut memo = Memo::new(&Scenario::default());
+        memo.open(Rc::new(log), Setup::default()).expect("it fits");
+        let before = memo.run().fingerprint();
+        let log = memo.set_aside().expect("a log");
+        assert!(!memo.run().is_recorded());
+        let mut scenario = Scenario::default();
+        scenario.robot.length = -1.0;
+        memo.update(&scenario);
+        memo.put_back(log);
+        assert_eq!((memo.run().is_recorded(), memo.run().fingerprint()), (true, before));
+        assert!(memo.refusal().is_some());
+        memo.update(&Scenario::default());
+        assert!(memo.run().is_recorded() && memo.refusal().is_none());
     }
 
     #[test]

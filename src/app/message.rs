@@ -182,9 +182,11 @@ impl App {
                 refused.push(error.into());
             }
         }
-        if page.tour.is_some() {
-            let asked = wishes.get("tour").unwrap_or(&Json::Null);
-            refused.push(Refusal::part("tour", asked, "the tour is open in a page of its own only"));
+        for (name, asked) in [("tour", page.tour.is_some()), ("challenge", page.challenge.is_some())] {
+            if asked {
+                let asked = wishes.get(name).unwrap_or(&Json::Null);
+                refused.push(Refusal::part(name, asked, &format!("a {name} is open in a page of its own only")));
+            }
         }
         if let Some(embed) = self.embed
             && !embed.views().contains(&page.view)

@@ -44,6 +44,24 @@ impl ThemeChoice {
         }
     }
 
+    /// Its name in a link; none while nobody has chosen one.
+    #[must_use]
+    pub fn key(self) -> Option<&'static str> {
+        match self {
+            Self::System => None,
+            Self::Light => Some("light"),
+            Self::Dark => Some("dark"),
+            Self::Projector => Some("projector"),
+        }
+    }
+
+    /// The one of this name in a link.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let known = [Self::Light, Self::Dark, Self::Projector].into_iter().find(|theme| theme.key() == Some(name));
+        known.or((name == "system").then_some(Self::System))
+    }
+
     /// In egui's terms.
     #[must_use]
     pub fn preference(self) -> egui::ThemePreference {
@@ -248,6 +266,14 @@ pub fn hold_still(ctx: &egui::Context) {
 const LARGER: f32 = 1.25;
 /// Where the page is less wide, points, larger type would leave no room for what it says.
 const NARROW: f32 = 1000.0;
+
+/// Shows the page in the theme that is wanted from now on, where that is another.
+pub fn follow(ctx: &egui::Context, choice: ThemeChoice) {
+    let last = ctx.data_mut(|data| std::mem::replace(data.get_temp_mut_or_default(egui::Id::NULL), choice));
+    if last != choice {
+        choose(ctx, choice);
+    }
+}
 
 /// Shows the page in a theme.
 pub fn choose(ctx: &egui::Context, choice: ThemeChoice) {

@@ -102,3 +102,38 @@ fn a_symbol_of_the_page_opens_its_place_in_the_theory() {
     let [[width, height]] = sizes(&mut page, "tr:target")[..] else { panic!("no such row") };
     assert!(width > 300.0 && height > 15.0);
 }
+
+#[test]
+fn a_symbol_of_a_legend_is_named_under_the_pointer_and_leads_to_its_row() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    page.eval("window.open = (address) => { window.opened = String(address); return null; }; 1");
+    let symbol = "centrode that the model expects without contact";
+    let [x, y] = page.widget("Link", &format!("Theory: cm, {symbol}")).at(0.5);
+    let [left, top, width, height] = page.widget("Canvas", "3D view").bounds.expect("in sight");
+    assert!((left..left + width).contains(&x) && (top + 0.5 * height..top + height).contains(&y), "not in the legend");
+    let named = |page: &mut Page| page.widgets().iter().any(|widget| widget.value == format!("cm: {symbol} (m)"));
+    assert!(!named(&mut page));
+    page.mouse("mouseMoved", [x, y]);
+    page.wait("its name", |page| named(page).then_some(()));
+    page.click("Link", &format!("Theory: cm, {symbol}"));
+    let address = page.wait("a tab", |page| page.eval("window.opened ?? null").as_str().map(str::to_owned));
+    assert!(address.ends_with("/deep/path/theory.html#sym-c-m"), "{address}");
+    assert_eq!(page.problems(), Vec::<String>::new());
+    page.browse(&address);
+    assert_eq!(sizes(&mut page, "tr#sym-c-m:target").len(), 1);
+}
+
+#[test]
+fn a_reader_hears_of_each_symbol_once_behind_everything_else() {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    page.element("link", "Theory: ξ2, threshold of the centrode deviation");
+    let links = "[...document.querySelectorAll('[data-kind=link]')].filter(e => e.textContent.startsWith('Theory: '))";
+    let count = page.eval(&format!("{links}.length")).as_u64().expect("a number");
+    assert!((9..30).contains(&count), "{count}");
+    assert_eq!(page.eval(&format!("new Set({links}.map(e => e.textContent)).size")), count);
+    let regions =
+        format!("[...new Set({links}.map(e => e.closest('section').querySelector('h2').textContent))].join()");
+    assert_eq!(page.eval(&regions), "Symbols");
+    let last = "[...document.querySelectorAll('section > h2')].at(-1).textContent";
+    assert_eq!(page.eval(last), "Symbols");
+}

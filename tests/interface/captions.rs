@@ -3,7 +3,7 @@
 use crate::support::{DESK, Page, app, click};
 use centrode::app::embed::Embed;
 use centrode::app::{App, Host};
-use egui::Key;
+use egui::{Key, Rect, Shape, vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
@@ -98,5 +98,41 @@ fn a_link_a_frame_and_the_tour_have_none() {
         }
         until(&mut page, 6.0);
         assert_eq!(said(&page), [false; 3]);
+    }
+}
+
+/// Where the words stand that are painted and hold a part.
+fn places(page: &Page, part: &str) -> Vec<Rect> {
+    fn all(shape: &Shape, part: &str, found: &mut Vec<Rect>) {
+        match shape {
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| all(shape, part, found)),
+            Shape::Text(text) if text.galley.text().contains(part) => found.push(text.visual_bounding_rect()),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    page.output().shapes.iter().for_each(|shape| all(&shape.shape, part, &mut found));
+    found
+}
+
+#[test]
+fn a_caption_covers_no_label() {
+    let mut page = opened(Host::default);
+    let view = page.get_by_label("3D view").rect();
+    let found = app(&page).run().detection().expect("one").time;
+    for k in 0..30 {
+        until(&mut page, found + 0.1 * f64::from(k));
+        let captions = ["It touches", "have parted"].map(|part| places(&page, part));
+        assert!(captions.iter().all(|places| places.len() == 1), "{} s: {captions:?}", app(&page).state().time);
+        let mut labels = places(&page, "estimate 1");
+        labels.extend(places(&page, " mm"));
+        labels.retain(|label| view.contains_rect(*label));
+        let time = app(&page).state().time;
+        assert!(labels.iter().any(|label| places(&page, "estimate 1").contains(label)), "{time} s: no estimate");
+        for caption in captions.concat() {
+            // With the ground that it is written on.
+            let ground = caption.expand2(vec2(9.0, 6.0));
+            assert!(labels.iter().all(|label| !label.intersects(ground)), "{time} s: {ground} over one of {labels:?}");
+        }
     }
 }

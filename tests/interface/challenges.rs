@@ -1,11 +1,13 @@
 //! The challenges, headless: each begins unmet, and its worked answer meets it.
 
-use crate::lesson::learn;
+use crate::lesson::{do_it, learn};
 use crate::support::{DESK, PHONE, Page, app, click, finish, page_of, slide};
+use centrode::app::lesson::At;
 use centrode::app::lesson::challenge::CHALLENGES;
 use centrode::app::lesson::challenge::check::Verdict;
 use centrode::app::link::Effect;
 use centrode::app::{App, Host};
+use centrode_core::scenario::link;
 use egui::Vec2;
 use egui::accesskit::Role;
 use egui_kittest::Harness;
@@ -117,4 +119,57 @@ fn progress_is_handed_out_and_comes_back() {
         let page = kept(DESK, Some(garbled));
         assert!(app(&page).lesson().is_kept() && app(&page).notice().is_none(), "{garbled}");
     }
+}
+
+#[test]
+fn a_challenge_is_linked_to_as_a_step_of_the_tour_is() {
+    let address = |page: &mut Page| {
+        let effects = page.state_mut().as_mut().expect("built").take_effects().into_iter();
+        let mut told = effects.filter_map(|effect| match effect {
+            Effect::Address { fragment, .. } => Some(fragment),
+            _ => None,
+        });
+        told.next_back()
+    };
+    let at = |page: &Page| app(page).state().lesson;
+    assert_eq!(CHALLENGES.each_ref().map(|of| of.key), *link::page::CHALLENGES);
+    let mut page = page_of(DESK);
+    address(&mut page);
+    learn(&mut page, "Challenges");
+    for (which, of) in CHALLENGES.iter().enumerate() {
+        press(&mut page, of.title);
+        let told = address(&mut page).expect("told");
+        assert!(told.ends_with(&format!("&challenge={}", of.key)), "{told}");
+        press(&mut page, "All");
+        assert!(!address(&mut page).expect("told").contains("challenge"));
+        page.state_mut().as_mut().expect("built").go(&told);
+        page.run_steps(3);
+        assert_eq!((at(&page), address(&mut page)), (Some(At::Challenge(which)), None), "{told}");
+        press(&mut page, "All");
+    }
+    page.state_mut().as_mut().expect("built").go("preset=disk-3&seed=7&challenge=clamp");
+    page.run_steps(3);
+    press(&mut page, "All");
+    press(&mut page, "Leave challenges");
+    assert_eq!((at(&page), app(&page).state().scenario.seed), (None, 7), "what the link holds besides");
+    page.state_mut().as_mut().expect("built").go("challenge=bogus");
+    page.run_steps(3);
+    assert_eq!(at(&page), None);
+    let notice = app(&page).notice().expect("a notice");
+    assert!(notice.details.contains("challenge") && notice.details.contains("disk-1"), "{notice:?}");
+}
+
+#[test]
+fn steps_that_are_done_stay_done() {
+    let mut page = kept(DESK, Some(r#"{"tour":2,"met":[],"done":[2]}"#));
+    assert!(app(&page).lesson().is_done(1) && !app(&page).lesson().is_done(0));
+    learn(&mut page, "Tour from the start");
+    assert_eq!(told(&mut page), [r#"{"tour":1,"met":[],"done":[2]}"#]);
+    do_it(&mut page, 0);
+    assert_eq!(told(&mut page).last().expect("kept"), r#"{"tour":1,"met":[],"done":[1,2]}"#);
+    // Where nothing can be kept it stays done as long as the page is open.
+    page.state_mut().as_mut().expect("built").progress_not_kept();
+    click(&mut page, "Next");
+    assert_eq!(told(&mut page), Vec::<String>::new());
+    assert!(app(&page).lesson().is_done(0) && !app(&page).lesson().is_kept());
 }

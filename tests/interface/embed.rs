@@ -284,3 +284,21 @@ fn a_log_is_no_business_of_the_host() {
         assert!(message["event"] != "event" && message["result"].is_null(), "{message}");
     }
 }
+
+#[test]
+fn a_frame_has_the_theme_that_its_link_or_its_host_gives_it() {
+    let mut page = framed(vec2(640.0, 360.0), Embed::Robot, "preset=bench&t=6.27&theme=light");
+    page.run_steps(2);
+    assert_eq!(page.ctx.theme(), egui::Theme::Light);
+    let (answer, _) = ask(&mut page, json!({ "do": "set", "key": "theme", "value": "dark" }));
+    assert_eq!(answer["event"], "answer", "{answer}");
+    assert!(answer["link"].as_str().is_some_and(|link| link.ends_with("&theme=dark")), "{answer}");
+    page.run_steps(2);
+    assert_eq!(page.ctx.theme(), egui::Theme::Dark);
+    let (answer, _) = ask(&mut page, json!({ "do": "get", "key": "theme" }));
+    assert_eq!(answer["asked"]["theme"], "dark", "{answer}");
+    let (answer, _) = ask(&mut page, json!({ "do": "set", "key": "theme", "value": "pink" }));
+    assert_eq!((&answer["event"], &answer["refused"][0]["key"]), (&json!("error"), &json!("theme")), "{answer}");
+    let (answer, _) = ask(&mut page, json!({ "do": "set", "key": "challenge", "value": "clamp" }));
+    assert_eq!((&answer["event"], &answer["refused"][0]["key"]), (&json!("error"), &json!("challenge")), "{answer}");
+}

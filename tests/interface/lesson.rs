@@ -51,7 +51,7 @@ fn fragment(page: &mut Page) -> String {
 }
 
 /// Does what a step asks for, as a person would.
-fn do_it(page: &mut Page, step: usize) {
+pub fn do_it(page: &mut Page, step: usize) {
     match step {
         0 => {
             // Towards the ring: the arrow at B turns down.
@@ -250,8 +250,8 @@ fn the_arrows_of_the_plate_obey_keys_and_assistive_technology() {
     assert!(page.query_by_label_contains("Parallel arrows").is_some());
 }
 
-#[test]
-fn a_log_is_set_aside_and_comes_back() {
+/// A page that shows a log.
+fn with_log() -> Page {
     let mut page = page_of(DESK);
     let log = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/logs/clean.csv");
     let bytes = std::fs::read(log).expect("an example");
@@ -263,14 +263,35 @@ fn a_log_is_set_aside_and_comes_back() {
         }
         page.step();
     }
-    let shown = app(&page).run().fingerprint();
     assert!(app(&page).run().is_recorded());
+    page
+}
+
+#[test]
+fn a_log_is_set_aside_and_comes_back() {
+    let mut page = with_log();
+    let shown = app(&page).run().fingerprint();
     learn(&mut page, "Tour");
     click(&mut page, "Next");
     assert!(!app(&page).run().is_recorded());
     click(&mut page, "Leave tour");
     assert!(app(&page).run().is_recorded());
     assert_eq!(app(&page).run().fingerprint(), shown);
+}
+
+#[test]
+fn a_log_comes_back_to_what_a_lesson_has_set() {
+    let mut page = with_log();
+    learn(&mut page, "Tour");
+    for _ in 1..5 {
+        click(&mut page, "Next");
+    }
+    slide(&mut page, "ξ2 (centrode)", 3.0);
+    assert!(!app(&page).run().is_recorded());
+    click(&mut page, "Keep this");
+    assert_eq!(step(&page), None);
+    assert!(app(&page).run().is_recorded(), "the log is gone");
+    assert_eq!(app(&page).run().judged.settings.thresholds.xi2, Threshold::On(0.003));
 }
 
 #[test]

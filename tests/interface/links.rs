@@ -4,6 +4,7 @@ use crate::stages::show;
 use crate::support::{DESK, PHONE, Page, app, build, click, fits, page_of, paused, slide, texts};
 use centrode::app::link::Effect;
 use centrode::app::stages::stage::Stage;
+use centrode::app::theme::ThemeChoice;
 use centrode::app::{App, Host};
 use centrode_core::scenario::link::page::VIEWS;
 use centrode_core::scenario::link::{Link, Page as Shown};
@@ -337,4 +338,31 @@ fn the_end_is_in_the_link_however_many_decimals_it_has() {
     let (last, _) = fragments.last().expect("an address");
     let (link, broken) = Link::read(last);
     assert!(broken.is_empty() && link.page.time.is_some_and(|time| time > 8.99), "{last}: {broken:?}");
+}
+
+#[test]
+fn a_theme_comes_by_a_link_and_goes_out_by_it_once_somebody_has_chosen_one() {
+    let mut page = page_at(DESK, "preset=disk-3&t=6&theme=light");
+    page.run_steps(2);
+    assert_eq!(page.ctx.theme(), egui::Theme::Light);
+    assert_eq!(told(&mut page), [], "the address says it already");
+    page.get_by_label_contains("Theme: ").click();
+    page.run_steps(2);
+    assert_eq!(told(&mut page), [("preset=disk-3&t=6&theme=projector".to_owned(), false)], "nothing to go back to");
+    pick(&mut page, "Copy link");
+    assert_eq!(copied(&page), format!("{ADDRESS}#preset=disk-3&t=6&theme=projector"));
+    // A link that names none leaves it to who looks.
+    handle(&mut page).go("preset=disk-3&t=6");
+    page.run_steps(2);
+    assert_eq!(app(&page).state().theme, ThemeChoice::Projector);
+    handle(&mut page).go("preset=disk-3&t=6&theme=system");
+    page.run_steps(2);
+    assert_eq!((app(&page).state().theme, page.ctx.theme()), (ThemeChoice::System, egui::Theme::Dark));
+    let mut page = page_at(DESK, "preset=disk-3&t=6");
+    page.run_steps(2);
+    pick(&mut page, "Copy link");
+    assert!(copied(&page).ends_with("#preset=disk-3&t=6"), "{}", copied(&page));
+    let page = page_at(DESK, "theme=pink");
+    let notice = app(&page).notice().expect("a notice");
+    assert!(notice.details.contains("theme") && notice.details.contains("projector"), "{notice:?}");
 }

@@ -8,6 +8,7 @@ mod contact;
 mod detectors;
 mod embed;
 mod gallery;
+mod keyboard;
 mod lesson;
 mod links;
 mod logs;

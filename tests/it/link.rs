@@ -1,7 +1,7 @@
 //! Links: what is written is read back, what is broken is told, and whatever is read can be run.
 
 use centrode_core::scenario::keys::{KEYS, Usual};
-use centrode_core::scenario::link::page::{MAX_REPEATS, RULES, TOUR_STEPS, VIEWS};
+use centrode_core::scenario::link::page::{CHALLENGES, MAX_REPEATS, RULES, THEMES, TOUR_STEPS, VIEWS};
 use centrode_core::scenario::link::{Broken, Link, LinkError, MAX_LINK, PAGE_KEYS, Page, Why};
 use centrode_core::scenario::preset::{PRESETS, find};
 use centrode_core::scenario::text::Draft;
@@ -242,10 +242,13 @@ fn page() -> impl Strategy<Value = Page> {
     let (views, rules) = (prop::sample::select(VIEWS), prop::sample::select(RULES));
     let numbers = (prop::option::of(0.0..0.3_f64), 0.1..4.0_f64, 0.001..0.999_f64, 1..MAX_REPEATS);
     let some = prop::sample::subsequence(Method::ALL, 0..=Method::ALL.len());
-    let tour = prop::option::of(1..=TOUR_STEPS);
-    (views, rules, numbers, any::<bool>(), some, tour).prop_map(|(view, rule, numbers, looping, some, tour)| {
+    let lesson = (prop::option::of(1..=TOUR_STEPS), prop::option::of(prop::sample::select(CHALLENGES)));
+    let theme = prop::option::of(prop::sample::select(THEMES));
+    let all = (views, rules, numbers, any::<bool>(), some, lesson, theme);
+    all.prop_map(|(view, rule, numbers, looping, some, (tour, challenge), theme)| {
         let (time, speed, false_alarms, repeats) = numbers;
-        Page { view, rule, time, speed, looping, false_alarms, repeats, compare: Detectors::of(&some), tour }
+        let compare = Detectors::of(&some);
+        Page { view, rule, time, speed, looping, false_alarms, repeats, compare, tour, challenge, theme }
     })
 }
 

@@ -6,6 +6,7 @@ use egui::{Color32, Galley, Painter, Pos2, Shape, Stroke, Vec2, pos2, vec2};
 
 use crate::app::charts::notation::job;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use centrode_core::detect::Method;
 use centrode_core::run::Run;
 
@@ -123,7 +124,7 @@ pub fn legend(painter: &Painter, theme: &Theme, top_left: Pos2, width: f32, entr
         let y = top_left.y + (row as f32 + 0.5) * ROW;
         let x = top_left.x + x;
         mark(painter, pos2(x + 9.0, y), entry.form, 1.0, entry.color, theme);
-        painter.galley(pos2(x + 22.0, y - 0.5 * galley.size().y), galley, theme.dim);
+        symbol::galley(painter, pos2(x + 22.0, y - 0.5 * galley.size().y), galley, theme.dim);
         height = (row + 1) as f32 * ROW;
     }
     height

@@ -3,18 +3,17 @@
 use crate::app::charts::notation::{job, job_in};
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::scene::palette::{Palette, Shade};
 use crate::show::ink;
 use centrode_core::chart::clip::{self, Spot};
 use centrode_core::chart::layout::{Align, Drawing, Form, Frame, Ink, Item, Page, Paint, Text, layout, over};
 use centrode_core::chart::svg::FAINT;
 use centrode_core::chart::{Chart, Map, Role, Series};
-use egui::epaint::TextShape;
 use egui::{
     Align2, Color32, ColorImage, Context, Mesh, Painter, Pos2, Rect, Stroke, TextureHandle, TextureOptions, Vec2, pos2,
     vec2,
 };
-use std::f32::consts::FRAC_PI_2;
 
 /// Where a panel of a painted chart lies on the screen. Values are SI.
 #[derive(Debug, Clone, Copy)]
@@ -257,11 +256,10 @@ impl Brush<'_> {
         };
         if text.upright {
             // Turned about its upper left corner.
-            let shape = TextShape::new(at + vec2(-0.5 * high, along), galley, ink).with_angle(-FRAC_PI_2);
-            self.painter.add(shape);
+            symbol::upright(self.painter, at + vec2(-0.5 * high, along), galley, ink);
         } else {
             let place = Align2::LEFT_CENTER.anchor_size(at - vec2(along, 0.0), vec2(wide, high));
-            self.painter.galley(place.min, galley, ink);
+            symbol::galley(self.painter, place.min, galley, ink);
         }
     }
 }

@@ -10,6 +10,7 @@ use crate::app::charts::notation::{job, note, number};
 use crate::app::charts::plots::{Axis, Steps};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::show::track::{Trace, standing};
 use crate::show::{band, obstacle};
 use centrode_core::detect::calibration::marginal::Estimate;
@@ -54,7 +55,7 @@ pub fn plane(
     let track = Track::new(run, trace);
     let loci = track.loci(cursor);
     let title = painter.layout_job(job("Bending plane x_1–z_1 (mm)", TEXT, theme.ink));
-    painter.galley(pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
+    symbol::galley(&painter, pos2(area.left() + 2.0, area.top() + 1.0), title, theme.ink);
     let entries = entries(run, &theme, frozen);
     // The data is about as wide as high: what a low view has to spare is at its side.
     let aside = area.width() > 1.15 * area.height();

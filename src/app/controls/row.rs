@@ -10,7 +10,6 @@ use crate::app::widgets::icon::{self, Icon};
 use crate::app::widgets::rail::Rail;
 use crate::app::widgets::segmented::{segmented, several};
 use crate::app::widgets::slider::{Slider, slider};
-use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 use crate::app::widgets::toggle::toggle;
 use centrode_core::scenario::Scenario;
@@ -39,18 +38,11 @@ pub struct Context<'a> {
 }
 
 /// Label and reset button; returns whether it was reset.
-fn heading(
-    ui: &mut Ui,
-    rect: Rect,
-    key: &str,
-    (label, tip): (&str, &str),
-    differs: bool,
-    out: &mut Vec<Command>,
-) -> bool {
+fn heading(ui: &mut Ui, rect: Rect, key: &str, (label, tip): (&str, &str), differs: bool) -> bool {
     let theme = Theme::of(ui);
     let ink = if differs { theme.ink } else { theme.ink.lerp_to_gamma(theme.dim, 0.35) };
     let drawn = text::paint_rich(ui, rect.left_center(), Align2::LEFT_CENTER, label, 13.0, ink);
-    symbol::explain(ui, drawn, ("label", key), (label, tip), out);
+    ui.interact(drawn.expand(2.0), ui.make_persistent_id(("label", key)), Sense::hover()).on_hover_text(tip);
     if !differs {
         return false;
     }
@@ -69,7 +61,7 @@ pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     let label = control.label(scenario);
-    if heading(ui, line, control.key, (label, &control.tip()), control.differs(scenario, base), out) {
+    if heading(ui, line, control.key, (label, &control.tip()), control.differs(scenario, base)) {
         out.push(Command::Reset(control));
     }
 
@@ -130,7 +122,7 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
     let differs = choice.differs(context.scenario, context.base);
-    if heading(ui, line, choice.of.path, (choice.label, &choice.tip()), differs, out) {
+    if heading(ui, line, choice.of.path, (choice.label, &choice.tip()), differs) {
         out.push(Command::ResetChoice(choice));
     }
     let place = Rect::from_min_size(line.left_bottom(), vec2(width, height));

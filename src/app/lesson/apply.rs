@@ -83,8 +83,12 @@ impl App {
                 self.leave_lesson();
             }
             Wish::Keep => {
-                self.lesson.kept = None;
                 self.state.lesson = None;
+                // What was set gives way; a log is no setting.
+                if let Some(log) = self.lesson.kept.take().and_then(|kept| kept.log) {
+                    self.memo.update(&self.state.scenario);
+                    self.memo.put_back(log);
+                }
             }
             Wish::Plate(moved) => self.lesson.plate.apply(moved),
         }
@@ -182,8 +186,9 @@ impl App {
         let began = *self.lesson.began.get_or_insert(detection);
         let placed = self.memo.placed().at(time).is_some_and(|shown| shown.estimate().is_some());
         let seen = Seen { state: &self.state, run, time, began, plate: &self.lesson.plate, placed };
-        let done = (TOUR[step].done)(&seen);
-        self.lesson.done[step] |= done;
+        if (TOUR[step].done)(&seen) {
+            self.lesson.progress.done.insert(step + 1);
+        }
     }
 }
 

@@ -99,7 +99,8 @@ fn captions(run: &Run, time: f64) -> Vec<Caption> {
     }
     let mut captions = vec![said(on(beam.arc_length), "It touches the beam: the part below stops.")];
     if let Some(detection) = run.detection().filter(|detection| (contact..=time).contains(&detection.time)) {
-        let judgement = run.sample_at(time).judgement;
+        // As they were found: at rest there is nothing but noise.
+        let judgement = run.sample_at(detection.time).judgement;
         let between = 0.5 * (at(&judgement.model_centrode) + at(&judgement.sensor_centrode));
         let delay = number(detection.time - contact, 2);
         let anchor = if between.is_finite() { between } else { on(detection.location) };
@@ -124,10 +125,17 @@ pub fn paint(
     let size = galley.size() + vec2(20.0, 14.0);
     let inside = view.shrink(6.0);
     let free = |place: &Rect| inside.contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place));
-    let clear = |place: &Rect| !bodies.iter().any(|body| place.expand(4.0).contains(*body));
+    let near =
+        |place: &Rect| pos2(anchor.x.clamp(place.left(), place.right()), anchor.y.clamp(place.top(), place.bottom()));
+    // Neither it nor its line lies over something.
+    let clear = |place: &Rect| {
+        let line = |k: u8| anchor.lerp(near(place), f32::from(k) / 16.0);
+        !bodies.iter().any(|body| place.expand(4.0).contains(*body))
+            && !(0..=16).map(line).any(|point| taken.iter().any(|other| other.contains(point)))
+    };
     let place = around(anchor, size).chain(anywhere(anchor, size, inside)).find(|place| free(place) && clear(place));
     let place = place.or_else(|| around(anchor, size).find(free))?;
-    let near = pos2(anchor.x.clamp(place.left(), place.right()), anchor.y.clamp(place.top(), place.bottom()));
+    let near = near(&place);
     painter.add(Shape::line_segment([anchor, near], Stroke::new(1.5, theme.ink)));
     painter.circle(anchor, 3.5, theme.ink, Stroke::new(1.5, theme.panel));
     painter.rect_filled(place, 8.0, theme.ink);

@@ -12,6 +12,7 @@ use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
+use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 use centrode_core::scenario::Scenario;
 use egui::{
@@ -134,7 +135,7 @@ pub fn card(ui: &mut Ui, rect: Rect, inputs: &Inputs<'_>, out: &mut Vec<Command>
 /// Paints a text where the layout goes on, with what it is to assistive technology.
 pub(super) fn written(ui: &mut Ui, galley: Arc<Galley>, said: &str, role: Role) -> Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), galley.size().y), Sense::hover());
-    ui.painter().galley(rect.min, galley, Theme::of(ui).ink);
+    symbol::galley(ui.painter(), rect.min, galley, Theme::of(ui).ink);
     response.widget_info(|| WidgetInfo::labeled(role, true, said));
     response
 }
@@ -193,7 +194,7 @@ fn task(ui: &mut Ui, step: &Step, done: bool, theme: &Theme) {
     ui.painter().rect(rect, 8.0, theme.raised, Stroke::new(1.0, color.gamma_multiply(0.6)), StrokeKind::Inside);
     sign(ui, pos2(rect.left() + 15.0, rect.top() + 7.0 + 0.72 * SIZE), done, theme);
     let (said, galley) = if done { (step.noticed, noticed) } else { (step.task, task) };
-    ui.painter().galley(rect.min + vec2(SIGN + 4.0, 7.0), galley, theme.ink);
+    symbol::galley(ui.painter(), rect.min + vec2(SIGN + 4.0, 7.0), galley, theme.ink);
     let heard = if done { format!("Done. {said}") } else { format!("To do: {said}") };
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &heard));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));
@@ -261,9 +262,6 @@ pub(super) fn on_accent(ui: &mut Ui, rect: Rect, label: &str, prominent: bool, t
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), label));
     let fill = theme.accent.lerp_to_gamma(theme.ink, if response.hovered() { 0.12 } else { 0.0 });
     ui.painter().rect_filled(rect, 7.0, fill);
-    if response.has_focus() {
-        ui.painter().rect_stroke(rect, 7.0, Stroke::new(2.0, theme.ink), StrokeKind::Outside);
-    }
     text::paint(ui, rect.center(), Align2::CENTER_CENTER, label, fonts::strong(13.0), theme.on_accent);
     response.clicked()
 }

@@ -97,6 +97,12 @@ fn false_alarms(count: usize) -> String {
     }
 }
 
+/// What opens the challenge of this name.
+#[must_use]
+pub fn named(name: &str) -> Option<super::Wish> {
+    CHALLENGES.iter().position(|of| of.key == name).map(super::Wish::Challenge)
+}
+
 /// All of them.
 pub static CHALLENGES: [Challenge; 6] = [
     Challenge {

@@ -53,6 +53,14 @@ impl Recorded {
         Self::new(Rc::clone(&self.log), self.setup.clone(), scenario)
     }
 
+    /// The same log by the scenario with which it was made a recording.
+    ///
+    /// # Errors
+    /// As [`Recorded::new`].
+    pub fn as_it_was(&self) -> Result<(Self, Run), LogError> {
+        self.again(&self.scenario)
+    }
+
     /// Whether another scenario makes another recording of the log, or only judges the same one.
     #[must_use]
     pub fn depends(&self, scenario: &Scenario) -> bool {

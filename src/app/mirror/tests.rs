@@ -56,7 +56,10 @@ fn every_part_of_the_page_is_there_in_reading_order() {
     let regions: Vec<&str> =
         mirror.elements.iter().filter(|e| e.kind == Kind::Region).map(|e| e.name.as_str()).collect();
     // The 3D view needs a GPU.
-    assert_eq!(regions, ["Experiment", "Views", "Tools", "Controls", "Playback", "Bending plane", "Result", "Plots"]);
+    assert_eq!(
+        regions,
+        ["Experiment", "Views", "Tools", "Controls", "Playback", "Bending plane", "Result", "Plots", "Symbols"]
+    );
     let digits = |name| find(&mirror, Kind::Field, name).digits;
     assert_eq!((digits("ξ2 (centrode) value"), digits("Bending direction δ value")), (true, false));
     let slider = find(&mirror, Kind::Slider, "Contact disk");

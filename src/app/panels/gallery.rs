@@ -132,11 +132,7 @@ impl Gallery {
         }
         let warm = response.hovered() || response.has_focus();
         let fill = if warm { theme.raised } else { theme.panel };
-        let edge = match (response.has_focus(), chosen) {
-            (true, _) => Stroke::new(2.0, theme.accent),
-            (_, true) => Stroke::new(1.5, theme.accent),
-            _ => Stroke::new(1.0, theme.faint),
-        };
+        let edge = if chosen { Stroke::new(1.5, theme.accent) } else { Stroke::new(1.0, theme.faint) };
         ui.painter().rect(rect, 8.0, fill, edge, StrokeKind::Inside);
         let picture = Rect::from_min_size(rect.min + Vec2::splat(PAD), PICTURE);
         ui.painter().rect_filled(picture, 5.0, theme.surface);

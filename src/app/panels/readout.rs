@@ -7,6 +7,7 @@ use crate::app::memo::placed::Placed;
 use crate::app::memo::recorded::Recorded;
 use crate::app::panels::sheet;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 use crate::app::words::story::{self, Figure};
 use crate::app::words::{log, placed as placing};
@@ -29,13 +30,13 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
     sheet::scrolled(ui, |ui| {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, edge)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            ui.add(egui::Label::new(text::rich(&words, 13.5, theme.ink)).wrap());
+            symbol::label(ui, text::rich(&words, 13.5, theme.ink), false);
             for (said, color) in
                 [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.alarm)]
             {
                 if let Some(said) = said {
                     ui.add_space(5.0);
-                    ui.add(egui::Label::new(text::rich(&said, 12.5, color)).wrap());
+                    symbol::label(ui, text::rich(&said, 12.5, color), false);
                 }
             }
             ui.add_space(if low { 5.0 } else { 8.0 });

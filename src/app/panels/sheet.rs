@@ -123,7 +123,7 @@ pub fn handle(ui: &Ui, handle: &Handle, stop: Stop, out: &mut Vec<Command>) {
     let bar = Rect::from_center_size(center, size);
     let held = response.dragged() || response.hovered();
     ui.painter().rect_filled(bar, 2.0, if held { theme.accent } else { theme.edge });
-    focus::ring(ui, bar.expand(5.0), &response);
+    focus::around(ui, response.id, bar.expand(5.0));
 }
 
 fn describe(ui: &Ui, response: &Response, stop: Stop) {

@@ -11,9 +11,9 @@ use crate::app::panels::gallery::Gallery;
 use crate::app::panels::{menu, share};
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
+use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::text;
-use crate::app::widgets::{finger, focus};
 use centrode_core::scenario::preset::Preset;
 
 /// A preset's name as the page writes it.
@@ -91,10 +91,9 @@ fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Re
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_value(title));
     let warm = response.hovered() || Popup::is_id_open(ui.ctx(), Popup::default_response_id(&response));
     let ground = theme.panel.lerp_to_gamma(theme.ink, if warm { 0.05 } else { 0.0 });
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
     // A finger needs more than the eye.
     let shown = rect.shrink2(vec2(0.0, (0.5 * (rect.height() - BOX)).max(0.0)));
-    ui.painter().rect(shown, 7.0, ground, Stroke::new(1.0, edge), StrokeKind::Inside);
+    ui.painter().rect(shown, 7.0, ground, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
     ui.painter_at(rect.with_max_x(rect.right() - 22.0)).text(
         rect.left_center() + vec2(10.0, 0.0),
         Align2::LEFT_CENTER,
@@ -158,7 +157,6 @@ pub(super) fn choice(ui: &mut Ui, role: Role, (title, summary): (&str, &str), ch
     if response.hovered() || response.has_focus() {
         ui.painter().rect_filled(rect, 6.0, theme.raised);
     }
-    focus::ring(ui, rect, &response);
     ui.painter().galley(rect.min + vec2(10.0, 6.0), galley, theme.ink);
     response
 }

@@ -15,6 +15,7 @@ use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::finger;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text::rich;
 use crate::app::words::refusal;
 use centrode_core::chart::{Chart, Panel};
@@ -169,7 +170,7 @@ fn summary(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &mut 
         let size = ui.painter().layout_job(text.clone()).size();
         let (_, place) = ui.allocate_space(vec2(size.x, size.y.max(finger::at_least(ui, 24.0))));
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("summary"));
-        said.add(Label::new(text).wrap());
+        symbol::label(&mut said, text, false);
         if let Some((method, point)) = advice {
             let at = Rect::from_min_size(place.right_top() + vec2(8.0, -3.0), vec2(60.0, finger::at_least(ui, 24.0)));
             if button(ui, at, "Take it", &theme) {

@@ -4,6 +4,7 @@ use crate::app::charts::notation::{self, job, number};
 use crate::app::charts::paint::{self, Picture, Place};
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text::rich;
 use centrode_core::chart::layout::Ink;
 use centrode_core::chart::notation::printed;
@@ -32,7 +33,7 @@ pub fn figure(
     let theme = Theme::of(ui);
     let title = ui.painter().layout_job(strong(&chart.title, 15.0, theme.ink, rect.width()));
     let height = title.size().y;
-    ui.painter().galley(rect.min, title, theme.ink);
+    symbol::galley(ui.painter(), rect.min, title, theme.ink);
 
     // The words take what they need, below the chart or, where it would be too low, beside it.
     let below = rect.with_min_y(rect.top() + height + 10.0);
@@ -91,7 +92,7 @@ fn words(ui: &mut Ui, rect: Rect, chart: &Chart, inputs: &Inputs<'_>, theme: &Th
     let place = Rect::from_min_max(pos2(rect.left(), top), rect.max);
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("caption"));
     inner.spacing_mut().item_spacing.y = 4.0;
-    inner.add(Label::new(caption).wrap().selectable(true));
+    symbol::label(&mut inner, caption, true);
     inner.add(Label::new(line).wrap().selectable(true));
     top
 }

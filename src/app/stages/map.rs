@@ -7,10 +7,11 @@ use crate::app::panels::save;
 use crate::app::saving::Subject;
 use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use centrode_core::scenario::{Contact, Place as At, Scenario};
 use centrode_core::study::map::ContactMap;
 use centrode_core::study::map::chart::{Kind, target, without_contact};
-use egui::{CursorIcon, Label, Rect, Sense, Ui, pos2};
+use egui::{CursorIcon, Rect, Sense, Ui, pos2};
 
 /// Size of the chart's text, points.
 const TEXT: f32 = 11.5;
@@ -49,8 +50,8 @@ pub fn map(
     let foot = rect.bottom() - heights.iter().sum::<f32>() - 4.0;
     let mut inner = ui.new_child(egui::UiBuilder::new().max_rect(told.with_min_y(foot)).id_salt("words"));
     inner.spacing_mut().item_spacing.y = 3.0;
-    inner.add(Label::new(words).wrap());
-    inner.add(Label::new(hint).wrap());
+    symbol::label(&mut inner, words, false);
+    symbol::label(&mut inner, hint, false);
 
     let corner = pos2(rect.right() - 0.5 * save::side(ui), foot + 0.5 * save::side(ui) - 4.0);
     let place = Rect::from_center_size(corner, egui::Vec2::splat(save::side(ui)));

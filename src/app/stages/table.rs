@@ -7,6 +7,7 @@ use crate::app::charts::notation::{job, number};
 use crate::app::charts::paint::Picture;
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use centrode_core::scenario::ContactKind;
 use centrode_core::study::table2::ours::Ours;
 use centrode_core::study::table2::{Disk, Row, Spread, Table2};
@@ -114,7 +115,7 @@ pub fn table(
             picture(ui);
         }
         ui.add_space(8.0);
-        ui.add(Label::new(said).wrap());
+        symbol::label(ui, said, false);
     });
 }
 
@@ -150,7 +151,7 @@ fn words(kind: ContactKind) -> (&'static str, &'static str) {
 fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f32, theme: &Theme) {
     ui.add(Label::new(egui::RichText::new(title).font(fonts::strong(15.0)).color(theme.ink)));
     ui.add_space(2.0);
-    ui.add(Label::new(job(below, 12.0, theme.dim)).wrap());
+    symbol::label(ui, job(below, 12.0, theme.dim), false);
     ui.add_space(8.0);
     let narrow = width < 430.0;
     let size = if narrow { 12.0 } else { 12.5 + ((width - 450.0) / 60.0).clamp(0.0, 1.0) };
@@ -159,7 +160,7 @@ fn block(ui: &mut Ui, (title, below, disks): (&str, &str, &[Disk; 3]), width: f3
         for (k, (text, color)) in [(column.head, theme.ink), (column.unit, theme.dim)].into_iter().enumerate() {
             let galley = ui.painter().layout_job(job(text, size - 1.0, color));
             let at = egui::pos2(right - galley.size().x, head.top() + 2.0 + 16.0 * k as f32);
-            ui.painter().galley(at, galley, color);
+            symbol::galley(ui.painter(), at, galley, color);
         }
     });
     for disk in disks {

@@ -20,6 +20,7 @@ use crate::app::state::Tuning;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::button;
 use crate::app::widgets::finger;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text::rich;
 use centrode_core::chart::{Chart, Role, Style};
 use centrode_core::scenario::Xi1Rule;
@@ -246,7 +247,7 @@ fn choices(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, beside: bool, out:
 /// What is set now, and what should be.
 fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let now = words::now(view);
-    ui.add(Label::new(rich(&now, 13.0, view.theme.ink)).wrap());
+    symbol::label(ui, rich(&now, 13.0, view.theme.ink), false);
     let (advice, take) = words::advice(view);
     let done = inputs.tuner.left().is_none();
     let advice = if done { advice } else { format!("So far: {advice}") };
@@ -259,7 +260,7 @@ fn sentences(ui: &mut Ui, view: &View<'_>, inputs: &Inputs<'_>, out: &mut Vec<Co
         let wide = ui.painter().layout_job(text.clone()).size().x;
         let (_, place) = ui.allocate_space(vec2(wide, height));
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(place).id_salt("advice"));
-        said.add(Label::new(text).wrap());
+        symbol::label(&mut said, text, false);
         if let Some((level, length)) = take {
             let at = Rect::from_min_size(
                 pos2(place.right() + 8.0, place.top() - 3.0),

@@ -12,8 +12,8 @@ use egui::{Align2, CursorIcon, EventFilter, Key, PointerButton, Rect, Response, 
 
 use crate::app::fonts;
 use crate::app::theme::Theme;
+use crate::app::widgets::finger;
 use crate::app::widgets::icon::{self, Icon, Look};
-use crate::app::widgets::{finger, focus};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::{Palette, Shade};
 use crate::scene::{Camera, Scene, Studio};
@@ -188,7 +188,6 @@ pub fn viewport(
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked()
         || response.double_clicked()
         || home_asked;
-    focus::ring(ui, rect.shrink(2.0), &response);
     // A camera is kept only when it was moved: until then it follows the robot's size.
     state.camera = (!reset && camera != home).then_some(camera);
 }

@@ -18,9 +18,8 @@ pub fn named(ui: &mut Ui, rect: Rect, (label, name): (&str, &str), theme: &Theme
     let response = ui.interact(finger::around(ui, rect), id, Sense::click()).on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, ui.is_enabled(), name));
     let warm = if response.hovered() { 0.08 } else { 0.0 };
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
     let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
-    ui.painter().rect(rect, 7.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+    ui.painter().rect(rect, 7.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
     paint(ui, rect.center(), Align2::CENTER_CENTER, label, fonts::strong(12.5), theme.accent);
     response.clicked()
 }

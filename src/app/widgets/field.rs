@@ -6,7 +6,7 @@ use egui::{Align, Align2, Id, Key, Layout, Margin, Rect, Stroke, StrokeKind, Tex
 use crate::app::fonts;
 use crate::app::mirror;
 use crate::app::theme::Theme;
-use crate::app::widgets::text;
+use crate::app::widgets::{focus, text};
 
 /// What a field shows.
 pub struct Field<'a> {
@@ -31,18 +31,16 @@ pub fn field(ui: &mut Ui, rect: Rect, field: &Field<'_>) -> Option<String> {
     let draft = ui.data(|data| data.get_temp::<String>(id));
     let mut typed = draft.unwrap_or_else(|| field.shown.to_owned());
 
-    let focused = ui.memory(|memory| memory.has_focus(id));
+    focus::around(ui, id, rect);
     let hovered = ui.rect_contains_pointer(rect);
-    let edge = if focused {
-        theme.accent
-    } else if field.refused {
+    let edge = if field.refused {
         theme.error
     } else if hovered {
         theme.faint.lerp_to_gamma(theme.dim, 0.4)
     } else {
         theme.raised
     };
-    ui.painter().rect(rect, 6.0, theme.raised, Stroke::new(if focused { 1.5 } else { 1.0 }, edge), StrokeKind::Inside);
+    ui.painter().rect(rect, 6.0, theme.raised, Stroke::new(1.0, edge), StrokeKind::Inside);
     let unit_width = if field.unit.is_empty() {
         0.0
     } else {

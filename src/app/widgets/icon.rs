@@ -3,8 +3,8 @@
 use std::f32::consts::{PI, TAU};
 
 use egui::{
-    Align2, Color32, CursorIcon, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, StrokeKind, Ui, Vec2,
-    WidgetInfo, lerp, pos2, vec2,
+    Align2, Color32, CursorIcon, Painter, Pos2, Rect, Response, Role, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, lerp,
+    pos2, vec2,
 };
 
 use crate::app::fonts;
@@ -84,9 +84,6 @@ pub fn button(ui: &mut Ui, rect: Rect, icon: Icon, label: &str, look: Look) -> R
     };
     let corner = if look == Look::Accent { radius } else { 7.0 };
     ui.painter().rect_filled(rect, corner, fill);
-    if response.has_focus() {
-        ui.painter().rect_stroke(rect, corner, Stroke::new(1.5, theme.accent), StrokeKind::Outside);
-    }
     paint(ui.painter(), rect.center(), 1.0, icon, ink);
     response.on_hover_text(label)
 }

@@ -5,6 +5,7 @@ use egui::{Align2, CursorIcon, Rect, Role, Sense, Stroke, StrokeKind, Ui, UiBuil
 use crate::app::fonts;
 use crate::app::mirror;
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 
 /// One option.
@@ -93,16 +94,15 @@ fn parts(
             let fill = if theme.dark { theme.faint } else { theme.panel };
             ui.painter().rect(part, 5.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
         }
-        if response.has_focus() {
-            ui.painter().rect_stroke(part, 5.0, Stroke::new(1.5, theme.accent), StrokeKind::Inside);
-        }
         let ink = if held || response.hovered() { theme.ink } else { theme.dim };
         let font = if held { fonts::strong(12.5) } else { fonts::regular(12.5) };
         text::paint(ui, part.center(), Align2::CENTER_CENTER, option.text, font, ink);
         if response.clicked() {
             clicked = Some(i);
         }
-        if !option.hint.is_empty() {
+        if option.hint.is_empty() {
+            symbol::names(response, option.text);
+        } else {
             response.on_hover_text(option.hint);
         }
     }

@@ -148,9 +148,6 @@ pub fn paint_handle(ui: &Ui, response: &Response, x: f32, on: bool) {
     let center = pos2(x, response.rect.center().y);
     let held = response.is_pointer_button_down_on();
     let grown = ui.ctx().animate_bool(response.id.with("grown"), held || response.hovered());
-    if response.has_focus() {
-        ui.painter().circle_stroke(center, HANDLE + 3.0, Stroke::new(1.5, theme.accent));
-    }
     if held {
         ui.painter().circle_filled(center, HANDLE + 6.0, theme.accent.gamma_multiply(0.18));
     }

@@ -4,6 +4,7 @@ use egui::text::LayoutJob;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Ui};
 
 use crate::app::charts::notation;
+use crate::app::widgets::symbol;
 
 /// Paints a line of text; returns where it is.
 pub fn paint(ui: &Ui, at: Pos2, align: Align2, text: &str, font: FontId, color: Color32) -> Rect {
@@ -27,10 +28,10 @@ pub fn rich(text: &str, size: f32, color: Color32) -> LayoutJob {
     notation::job(&text, size, color)
 }
 
-/// Paints such a text on one line; returns where it is.
+/// Paints such a text on one line, with its symbols as links; returns where it is.
 pub fn paint_rich(ui: &Ui, at: Pos2, align: Align2, text: &str, size: f32, color: Color32) -> Rect {
     let galley = ui.painter().layout_job(rich(text, size, color));
     let rect = align.anchor_size(at, galley.size());
-    ui.painter().galley(rect.min, galley, color);
+    symbol::galley(ui.painter(), rect.min, galley, color);
     rect
 }

@@ -1,6 +1,6 @@
 //! A switch: on or off.
 
-use egui::{Rect, Role, Sense, Stroke, StrokeKind, Ui, WidgetInfo, lerp, pos2};
+use egui::{Rect, Role, Sense, Ui, WidgetInfo, lerp, pos2};
 
 use crate::app::theme::Theme;
 
@@ -16,8 +16,5 @@ pub fn toggle(ui: &mut Ui, rect: Rect, label: &str, on: bool) -> bool {
     let x = lerp(track.left() + 7.0..=track.right() - 7.0, along);
     let knob = if theme.dark { theme.ink } else { theme.panel };
     ui.painter().circle_filled(pos2(x, track.center().y), 5.0, knob);
-    if response.has_focus() {
-        ui.painter().rect_stroke(track.expand(2.5), 9.0, Stroke::new(1.5, theme.accent), StrokeKind::Outside);
-    }
     response.on_hover_text(if on { "Switch off" } else { "Switch on" }).clicked()
 }

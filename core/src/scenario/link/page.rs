@@ -1,5 +1,5 @@
-//! What a link says of the page beside the scenario: a short table of what one must know to see the same. Theme, folded
-//! groups and the like are the reader's own and stay out.
+//! What a link says of the page beside the scenario: a short table of what one must know to see the same. Folded
+//! groups and the like are the reader's own and stay out; so is the theme, unless somebody has chosen one.
 
 use crate::scenario::keys::allowed::Limit;
 use crate::scenario::keys::{Allowed, Quantity, Value};
@@ -18,6 +18,10 @@ pub const SPEEDS: (f64, f64) = (0.1, 4.0);
 pub const MAX_REPEATS: u64 = 100_000;
 /// Steps of the page's tour.
 pub const TOUR_STEPS: u64 = 10;
+/// The page's challenges.
+pub const CHALLENGES: &[&str] = &["disk-1", "half", "blind", "clamp", "disk-3", "best"];
+/// The page's themes: as the system says, or one of its own.
+pub const THEMES: &[&str] = &["system", "dark", "light", "projector"];
 const SWITCH: &[&str] = &["on", "off"];
 
 /// What the page shows; a setting that is not in a link has its default.
@@ -41,6 +45,10 @@ pub struct Page {
     pub compare: Detectors,
     /// The step of the tour that is open over all this, from 1; none outside of the tour.
     pub tour: Option<u64>,
+    /// The challenge that is open over all this, one of [`CHALLENGES`]; none outside of them, and the tour goes first.
+    pub challenge: Option<&'static str>,
+    /// The theme, one of [`THEMES`]; none leaves it to who looks.
+    pub theme: Option<&'static str>,
 }
 
 impl Default for Page {
@@ -55,6 +63,8 @@ impl Default for Page {
             repeats: 100,
             compare: Detectors::of(Method::ALL),
             tour: None,
+            challenge: None,
+            theme: None,
         }
     }
 }
@@ -160,6 +170,22 @@ pub const PAGE_KEYS: &[PageKey] = &[
                 page.tour = Some(*step);
             }
         },
+    },
+    PageKey {
+        name: "challenge",
+        quantity: Quantity::Word,
+        allowed: Allowed::Words(CHALLENGES),
+        sentence: "The challenge that is open; the rest of the link is what the page goes back to after it.",
+        get: |page| page.challenge.map(Value::Word),
+        set: |page, value| word(value, |word| page.challenge = Some(word)),
+    },
+    PageKey {
+        name: "theme",
+        quantity: Quantity::Word,
+        allowed: Allowed::Words(THEMES),
+        sentence: "Dark, light, for a projector, or as the system says; without it, as whoever looks has it.",
+        get: |page| page.theme.map(Value::Word),
+        set: |page, value| word(value, |word| page.theme = Some(word)),
     },
 ];
 

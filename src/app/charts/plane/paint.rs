@@ -1,6 +1,7 @@
 //! Strips and labels of the bending plane.
 
 use crate::app::theme::Theme;
+use crate::app::widgets::symbol;
 use egui::epaint::{Mesh, Vertex, WHITE_UV};
 use egui::{Color32, Galley, Painter, Pos2, Rect, Stroke, StrokeKind, Vec2, vec2};
 use std::sync::Arc;
@@ -66,7 +67,7 @@ pub fn place(at: Pos2, size: Vec2, bounds: Rect, in_the_way: &[Pos2]) -> Rect {
 /// Paints a label on a ground of its own.
 pub fn label(painter: &Painter, rect: Rect, galley: Arc<Galley>, edge: Color32, theme: &Theme) {
     painter.rect(rect, 4.0, theme.panel.gamma_multiply(0.92), Stroke::new(1.0, edge), StrokeKind::Inside);
-    painter.galley(rect.center() - 0.5 * galley.size(), galley, theme.ink);
+    symbol::galley(painter, rect.center() - 0.5 * galley.size(), galley, theme.ink);
 }
 
 #[cfg(test)]

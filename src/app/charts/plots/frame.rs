@@ -7,6 +7,7 @@ use crate::app::charts::plots::{Touch, View};
 use crate::app::command::Command;
 use crate::app::theme::Theme;
 use crate::app::widgets::finger;
+use crate::app::widgets::symbol;
 use centrode_core::chart::Style;
 use centrode_core::run::Sample;
 use egui::text::LayoutJob;
@@ -66,8 +67,8 @@ impl Frame {
         Self { outer, data, time, values, theme, tool: 0.0 }
     }
 
-    /// Title on the left, read-outs on the right; what does not fit gives way, least important first. Gives the title's place.
-    pub fn title(&self, painter: &Painter, long: &str, short: &str, readouts: &[ReadOut]) -> Rect {
+    /// Title on the left, read-outs on the right; what does not fit gives way, least important first.
+    pub fn title(&self, painter: &Painter, long: &str, short: &str, readouts: &[ReadOut]) {
         let galley = |text: &str, color| painter.layout_job(job(text, TEXT, color));
         let swatch = if readouts.len() > 1 { 20.0 } else { 0.0 };
         let parts: Vec<_> = readouts
@@ -93,8 +94,7 @@ impl Frame {
             (short, count)
         };
         let top = self.outer.top();
-        let place = Rect::from_min_size(pos2(self.outer.left() + 2.0, top + 1.0), title.size());
-        painter.galley(place.min, title, self.theme.ink);
+        symbol::galley(painter, pos2(self.outer.left() + 2.0, top + 1.0), title, self.theme.ink);
         let mut right = self.outer.right() - RIGHT - self.tool;
         for (readout, width, name, value) in parts.into_iter().take(count).rev() {
             let left = right - width;
@@ -108,10 +108,9 @@ impl Frame {
                     readout.style,
                 );
             }
-            painter.galley(pos2(left + swatch, top + 1.0), name, self.theme.dim);
+            symbol::galley(painter, pos2(left + swatch, top + 1.0), name, self.theme.dim);
             right = left - gap;
         }
-        place
     }
 
     /// Text for a time.

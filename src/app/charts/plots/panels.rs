@@ -8,7 +8,6 @@ use crate::app::charts::plots::marks::empty;
 use crate::app::charts::plots::threshold::Line;
 use crate::app::command::Command;
 use crate::app::theme::Theme;
-use crate::app::widgets::symbol;
 use centrode_core::chart::layout::Ink;
 use centrode_core::chart::{Role, Style};
 use centrode_core::detect::Method;
@@ -61,8 +60,7 @@ pub fn judging(ui: &mut Ui, view: &mut View<'_>, methods: &[Method]) {
     view.scrub(ui, &format!("Plot of the {} over time", name.to_lowercase()));
     let unit_behind = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let (long, short) = (format!("{name} {symbol}{unit_behind}"), format!("{symbol}{unit_behind}"));
-    let title = view.frame.title(&painter, &long, &short, &readouts);
-    symbol::explain(ui, title, ("title", view.which), (&short, ""), view.out);
+    view.frame.title(&painter, &long, &short, &readouts);
     if !view.has_values() {
         empty(&painter, &view.frame, "no values in this run");
     }
@@ -107,8 +105,7 @@ pub fn angle(ui: &mut Ui, view: &mut View<'_>) {
     let now = view.run.sample_at(view.cursor);
     let readout = ReadOut { name: "", value: number(value(&now), 1), color: theme.robot, style: Style::Line };
     view.scrub(ui, "Plot of the tangent angle over time");
-    let title = view.frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
-    symbol::explain(ui, title, ("title", view.which), ("θ_L (°)", ""), view.out);
+    view.frame.title(&painter, "Tangent angle θ_L (°)", "θ_L (°)", &[readout]);
     view.between(&painter);
     view.cursor(&painter, &[(value(&now), theme.robot)]);
     view.change(&painter, "θ_L");

@@ -5,6 +5,7 @@ use crate::app::charts::plots::View;
 use crate::app::charts::plots::axis::{Axis, rounded};
 use crate::app::charts::plots::frame::TEXT;
 use crate::app::widgets::finger;
+use crate::app::widgets::symbol;
 use centrode_core::scenario::Threshold;
 use centrode_core::study::course::Measure;
 use egui::{
@@ -109,10 +110,10 @@ impl View<'_> {
         let name = threshold.replace('_', "");
         let mut shown = line.threshold.value().unwrap_or(line.otherwise) * scale;
         let ink = if on { theme.ink } else { theme.dim };
-        let symbol = ui.painter().layout_job(job(threshold, TEXT, ink));
+        let name_drawn = ui.painter().layout_job(job(threshold, TEXT, ink));
         let widest = format!("{} {unit}", number(shown.max(10.0), decimals));
         let widest = ui.painter().layout_job(job(&widest, TEXT, ink)).size().x;
-        let rect = Rect::from_min_size(at, vec2(SWITCH + symbol.size().x + widest + 16.0, LABEL));
+        let rect = Rect::from_min_size(at, vec2(SWITCH + name_drawn.size().x + widest + 16.0, LABEL));
         let edge = if on { line.color } else { theme.faint };
         ui.painter().rect(rect, 6.0, theme.panel, Stroke::new(1.0, edge), StrokeKind::Inside);
         // Nothing behind the label can be grabbed through it.
@@ -139,9 +140,9 @@ impl View<'_> {
             ui.painter().circle_filled(center, 3.0, line.color);
         }
 
-        let at = pos2(switch.right() - 1.0, rect.center().y - 0.5 * symbol.size().y);
-        let field = Rect::from_min_max(pos2(at.x + symbol.size().x + 2.0, rect.top()), rect.max).shrink(2.0);
-        ui.painter().galley(at, symbol, theme.ink);
+        let at = pos2(switch.right() - 1.0, rect.center().y - 0.5 * name_drawn.size().y);
+        let field = Rect::from_min_max(pos2(at.x + name_drawn.size().x + 2.0, rect.top()), rect.max).shrink(2.0);
+        symbol::galley(ui.painter(), at, name_drawn, theme.ink);
 
         let hit = finger::around(ui, field).with_min_x(field.left()).with_max_x(field.right());
         let builder = UiBuilder::new().max_rect(hit).layout(Layout::right_to_left(Align::Center)).id_salt(id);

@@ -8,7 +8,7 @@ use crate::app::layout;
 use crate::app::lesson::card::{self, FOOT, HEAD, Inputs, PAD, SIZE, Way, leave, set_text, written};
 use crate::app::lesson::{At, Wish};
 use crate::app::theme::Theme;
-use crate::app::widgets::{icon, text};
+use crate::app::widgets::{icon, symbol, text};
 use crate::app::words::refusal;
 use egui::{Align2, CursorIcon, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
@@ -78,9 +78,8 @@ fn item(ui: &mut Ui, of: &Challenge, met: bool, theme: &Theme) -> bool {
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, of.title));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(if met { "Met" } else { "Not met yet" }));
     let warm = if response.hovered() { 0.06 } else { 0.0 };
-    let edge = if response.has_focus() { theme.accent } else { theme.faint };
     let fill = theme.raised.lerp_to_gamma(theme.ink, warm);
-    ui.painter().rect(rect, 8.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+    ui.painter().rect(rect, 8.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
     card::sign(ui, rect.left_center() + vec2(18.0, 0.0), met, theme);
     let at = rect.left_center() + vec2(36.0, 0.0);
     text::paint(ui, at, Align2::LEFT_CENTER, of.title, fonts::strong(13.5), theme.ink);
@@ -163,10 +162,10 @@ fn goal(ui: &mut Ui, of: &Challenge, inputs: &Inputs<'_>, theme: &Theme) {
     let color = if met { theme.sensor } else { theme.accent };
     ui.painter().rect(rect, 8.0, theme.raised, Stroke::new(1.0, color.gamma_multiply(0.6)), StrokeKind::Inside);
     let below = rect.top() + 8.0 + goal.size().y + 10.0;
-    ui.painter().galley(rect.min + vec2(10.0, 8.0), goal, theme.ink);
+    symbol::galley(ui.painter(), rect.min + vec2(10.0, 8.0), goal, theme.ink);
     ui.painter().hline(rect.x_range().shrink(10.0), below - 5.0, Stroke::new(1.0, theme.faint));
     card::sign(ui, pos2(rect.left() + 18.0, below + 0.72 * SIZE), met, theme);
-    ui.painter().galley(pos2(rect.left() + 34.0, below), found, ink);
+    symbol::galley(ui.painter(), pos2(rect.left() + 34.0, below), found, ink);
     if let Some(Verdict::Measuring(made, of)) = verdict {
         let share = made as f32 / of.max(1) as f32;
         let line = Rect::from_min_size(rect.left_bottom() - vec2(-10.0, 4.0), vec2((width - 20.0) * share, 2.0));

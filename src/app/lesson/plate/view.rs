@@ -155,9 +155,7 @@ fn colors(which: usize, theme: &Theme) -> Color32 {
 
 /// Marks what has the focus.
 fn focus(ui: &Ui, response: &Response, at: Pos2, theme: &Theme) {
-    if response.has_focus() {
-        ui.painter().circle_stroke(at, 15.0, Stroke::new(2.0, theme.accent));
-    } else if response.hovered() || response.dragged() {
+    if response.hovered() || response.dragged() {
         ui.painter().circle_filled(at, 14.0, theme.accent.gamma_multiply(0.16));
     }
 }

@@ -7,6 +7,7 @@ use crate::app::stages::Inputs;
 use crate::app::theme::Theme;
 use crate::app::widgets::button::named;
 use crate::app::widgets::finger;
+use crate::app::widgets::symbol;
 use crate::app::widgets::text::rich;
 use centrode_core::study::compare::Comparison;
 use egui::{Label, Rect, RichText, Ui, vec2};
@@ -23,7 +24,7 @@ pub fn advice(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &m
         "The soonest shown to give at most {} % false alarms, by the upper end of its 95 % interval.",
         words::wished(comparison.rate)
     );
-    ui.add(Label::new(rich(&said, 11.5, theme.dim)).wrap());
+    symbol::label(ui, rich(&said, 11.5, theme.dim), false);
     for compared in &comparison.detectors {
         let method = compared.method();
         let soonest = comparison.soonest == Some(compared.detector);
@@ -41,7 +42,7 @@ pub fn advice(ui: &mut Ui, comparison: &Comparison, inputs: &Inputs<'_>, out: &m
         ui.painter().hline(place.x_range(), place.top(), egui::Stroke::new(1.0, theme.faint));
         let words = place.with_max_x(place.right() - room).with_min_y(place.top() + 3.0);
         let mut said = ui.new_child(egui::UiBuilder::new().max_rect(words).id_salt(compared.detector));
-        said.add(Label::new(text).wrap());
+        symbol::label(&mut said, text, false);
         if let Some(point) = takes {
             let at = Rect::from_min_size(place.right_top() + vec2(-button.x, 3.0), button);
             let name = format!("Take the threshold of {}", words::short(method));

@@ -6,7 +6,8 @@ use crate::app::charts::legend::{self, Entry, Form};
 use crate::app::fonts;
 use crate::app::lesson::captions::{self, Caption};
 use crate::app::theme::Theme;
-use crate::scene::{Camera, Label, Pose, Scene, Solid, arc};
+use crate::app::widgets::symbol;
+use crate::scene::{Camera, Label, Line, Pose, Scene, Solid, arc};
 use crate::show::obstacle::only_touches;
 use centrode_core::run::Run;
 
@@ -27,8 +28,10 @@ pub fn notes(
     let theme = Theme::of(ui);
     let view = View { rect, camera };
     taken.extend(name_all(ui, &view, &theme, run, scene));
+    // Labels first: they stand close to what they name, and a caption has room elsewhere.
+    taken.extend(labels(ui, &view, &theme, scene, &taken));
     if !said.is_empty() {
-        let seen: Vec<Pos2> = bodies(scene).filter_map(|point| view.at(point)).collect();
+        let seen: Vec<Pos2> = bodies(scene).chain(leaders(scene)).filter_map(|point| view.at(point)).collect();
         // Where there is little room, the latest alone.
         let first = if rect.width() < NARROW { said.len() - 1 } else { 0 };
         for caption in &said[first..] {
@@ -36,7 +39,6 @@ pub fn notes(
             taken.extend(captions::paint(ui, rect, (caption, anchor), &taken, &seen));
         }
     }
-    labels(ui, &view, &theme, scene, taken);
 }
 
 struct View<'a> {
@@ -114,8 +116,19 @@ fn bodies(scene: &Scene) -> impl Iterator<Item = glam::Vec3> {
     tubes.chain(disks).chain(blocks)
 }
 
-/// Writes the scene's labels: each where it asks to be, or mirrored to where it fits and covers no other.
-fn labels(ui: &Ui, view: &View<'_>, theme: &Theme, scene: &Scene, mut taken: Vec<Rect>) {
+/// Points along the lines that lead to labels.
+fn leaders(scene: &Scene) -> impl Iterator<Item = glam::Vec3> {
+    let labelled = |line: &&Line| scene.labels.iter().any(|label| line.path.last() == Some(&label.anchor));
+    let along = |line: &Line| {
+        let [from, to] = [line.path[0], line.path[line.path.len() - 1]];
+        (0..=8_u8).map(move |k| from.lerp(to, f32::from(k) / 8.0))
+    };
+    scene.lines.iter().filter(labelled).flat_map(along)
+}
+
+/// Writes the scene's labels: each where it asks to be, or mirrored to where it fits and covers nothing; gives their places.
+fn labels(ui: &Ui, view: &View<'_>, theme: &Theme, scene: &Scene, taken: &[Rect]) -> Vec<Rect> {
+    let mut written: Vec<Rect> = Vec::new();
     let painter = ui.painter_at(view.rect);
     let inside = view.rect.shrink(4.0);
     // The signs of this instant are the larger ones.
@@ -127,7 +140,7 @@ fn labels(ui: &Ui, view: &View<'_>, theme: &Theme, scene: &Scene, mut taken: Vec
         let text = painter.layout_no_wrap(label.text.clone(), fonts::strong(12.5), ink);
         let free = |place: &Rect| {
             inside.contains_rect(*place)
-                && !taken.iter().any(|other| other.intersects(*place))
+                && !taken.iter().chain(&written).any(|other| other.intersects(*place))
                 && !signs.iter().any(|sign| place.expand(7.0).contains(*sign))
         };
         let slid = |place: Rect| {
@@ -136,9 +149,10 @@ fn labels(ui: &Ui, view: &View<'_>, theme: &Theme, scene: &Scene, mut taken: Vec
         };
         let Some(at) = places(anchor, label, text.size()).map(slid).find(free) else { continue };
         painter.rect_filled(at, 5.0, theme.panel.gamma_multiply(0.86));
-        painter.galley(at.min + vec2(5.0, 2.0), text, ink);
-        taken.push(at);
+        symbol::galley(&painter, at.min + vec2(5.0, 2.0), text, ink);
+        written.push(at);
     }
+    written
 }
 
 fn color(label: &Label) -> Color32 {
