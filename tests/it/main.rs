@@ -59,6 +59,9 @@ mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]
 mod shaders;
+mod shares;
+#[cfg(all(feature = "cli", unix))]
+mod shares_command;
 #[cfg(feature = "cli")]
 mod study_command;
 mod support;

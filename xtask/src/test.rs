@@ -95,6 +95,7 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Native => {
             tools::software_gpu()?;
+            tools::parallel();
             run(cargo().arg("test").args(PRODUCT).arg("--").args(&options.arguments))?;
             run(cargo().args(["test", "--package", "xtask", "--"]).args(&options.arguments))
         }
