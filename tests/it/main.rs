@@ -24,6 +24,7 @@ mod documented;
 mod edges;
 #[cfg(feature = "cli")]
 mod example_logs;
+mod examples;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;

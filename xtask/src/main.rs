@@ -5,6 +5,8 @@
 mod build;
 #[cfg(test)]
 mod light;
+mod metadata;
+mod package;
 mod renew;
 mod run;
 mod serve;

@@ -3,7 +3,7 @@
 use crate::build::{self, Which};
 use crate::run::{cargo, run};
 use crate::tools::{self, WASM};
-use crate::{serve, theory};
+use crate::{package, serve, theory};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -39,6 +39,8 @@ enum Stage {
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
+    /// What others use is packed and compiled as they get it, and with the oldest Rust that it states
+    Package,
     /// The page and the theory beside it are built, their sizes are told
     Page,
     /// The built page in a real browser
@@ -99,6 +101,7 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
             run(cargo().arg("test").args(PRODUCT).arg("--").args(&options.arguments))?;
             run(cargo().args(["test", "--package", "xtask", "--"]).args(&options.arguments))
         }
+        Stage::Package => package::check(),
         Stage::Page => page(options.dev, dist).map(drop),
         Stage::Browser => {
             let (browser, axe) = (tools::browser()?, tools::axe()?);

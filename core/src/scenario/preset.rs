@@ -5,6 +5,7 @@ use crate::scenario::{Scenario, ScenarioError};
 
 /// A scenario with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Preset {
     /// Name, as `--preset` takes it.
     pub name: &'static str,
@@ -14,7 +15,7 @@ pub struct Preset {
 
 macro_rules! presets {
     ($($name:literal),* $(,)?) => {
-        &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/", $name, ".toml")) }),*]
+        &[$(Preset { name: $name, toml: include_str!(concat!("../../assets/presets/", $name, ".toml")) }),*]
     };
 }
 

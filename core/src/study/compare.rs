@@ -46,6 +46,7 @@ pub struct Spec {
 
 /// Why nothing can be compared.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// The scenario is impossible.
     #[error(transparent)]

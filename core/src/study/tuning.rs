@@ -63,6 +63,7 @@ impl Spec {
 
 /// One combination of settings.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Cell {
     /// What it changes.
     pub set: Vec<Override>,
@@ -76,6 +77,7 @@ pub struct Cell {
 
 /// What one threshold comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Point {
     /// ξ2 (m) or ξ1 (N·m, or k).
     pub threshold: f64,

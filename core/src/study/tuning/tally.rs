@@ -149,6 +149,7 @@ impl Count {
 
 /// False alarms of a threshold: of runs without contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FalseAlarms {
     /// Runs with an alarm.
     #[serde(flatten)]
@@ -164,6 +165,7 @@ pub struct FalseAlarms {
 
 /// What a threshold does about contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Found {
     /// Alarms before contact, of all runs.
     pub early: Share,
