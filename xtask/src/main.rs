@@ -4,6 +4,8 @@
 
 mod build;
 #[cfg(test)]
+mod licence;
+#[cfg(test)]
 mod light;
 mod metadata;
 mod package;
@@ -11,6 +13,8 @@ mod renew;
 mod run;
 mod serve;
 mod shot;
+#[cfg(test)]
+mod supply;
 mod test;
 mod theory;
 mod tidy;

@@ -98,6 +98,12 @@ impl Metadata {
         Ok(Self { packages, needs })
     }
 
+    /// All packages, those of tests and tools included.
+    #[cfg(test)]
+    pub fn all(&self) -> impl Iterator<Item = &Package> {
+        self.packages.values()
+    }
+
     /// One of our packages.
     pub fn ours(&self, name: &str) -> Result<&Package> {
         let found = self.packages.values().find(|package| package.is_ours() && package.name == name);
