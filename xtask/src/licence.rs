@@ -1,6 +1,17 @@
 //! Licences as packages state them: expressions of SPDX, and which of several is taken.
 
+use crate::run::root;
 use anyhow::{Context, Result, bail, ensure};
+use std::fmt;
+use std::fs;
+
+/// The licences that `deny.toml` allows, the preferred ones first.
+pub fn allowed() -> Result<Vec<String>> {
+    let table: toml::Table = fs::read_to_string(root().join("deny.toml"))?.parse()?;
+    let list = table.get("licenses").and_then(|group| group.get("allow")).and_then(toml::Value::as_array);
+    let list = list.context("deny.toml allows no licence")?;
+    Ok(list.iter().filter_map(|value| value.as_str().map(String::from)).collect())
+}
 
 /// An expression: one licence, all of some, or any of some.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,6 +48,25 @@ impl Expression {
         taken.sort_by_key(place);
         taken.dedup();
         Some(taken)
+    }
+}
+
+/// As SPDX writes it.
+impl fmt::Display for Expression {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (parts, between) = match self {
+            Self::One(name) => return f.write_str(name),
+            Self::All(parts) => (parts, " AND "),
+            Self::Any(parts) => (parts, " OR "),
+        };
+        for (k, part) in parts.iter().enumerate() {
+            f.write_str(if k == 0 { "" } else { between })?;
+            match part {
+                Self::One(name) => f.write_str(name)?,
+                several => write!(f, "({several})")?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -103,6 +133,19 @@ mod tests {
         }
         for text in ["GPL-3.0", "MIT AND GPL-3.0", "Apache-2.0 WITH other-exception"] {
             assert_eq!(taken(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn written_out_it_is_read_alike() {
+        for (text, written) in [
+            ("Apache-2.0/MIT", "Apache-2.0 OR MIT"),
+            ("(MIT OR Apache-2.0) AND Unicode-3.0", "(MIT OR Apache-2.0) AND Unicode-3.0"),
+            ("A WITH B OR C", "A WITH B OR C"),
+        ] {
+            let read = Expression::read(text).unwrap();
+            assert_eq!(read.to_string(), written);
+            assert_eq!(Expression::read(written).unwrap(), read);
         }
     }
 

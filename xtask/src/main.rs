@@ -3,7 +3,6 @@
 //! Run as `cargo xtask COMMAND`.
 
 mod build;
-#[cfg(test)]
 mod licence;
 #[cfg(test)]
 mod light;

@@ -17,6 +17,8 @@ pub struct Package {
     pub source: Option<String>,
     /// Its licence as an expression of SPDX; none where it states none.
     pub licence: Option<String>,
+    /// Who wrote it, as it says.
+    pub authors: Vec<String>,
     /// What it says about itself.
     pub description: String,
     /// The oldest Rust that it states.
@@ -73,6 +75,10 @@ impl Metadata {
                 version: text("version").context("a package without a version")?,
                 source: text("source"),
                 licence: text("license"),
+                authors: list(&package, "authors")
+                    .iter()
+                    .filter_map(|author| author.as_str().map(String::from))
+                    .collect(),
                 description: text("description").unwrap_or_default(),
                 rust_version: text("rust_version"),
                 folder: manifest.parent().map(PathBuf::from).unwrap_or_default(),
@@ -99,7 +105,6 @@ impl Metadata {
     }
 
     /// All packages, those of tests and tools included.
-    #[cfg(test)]
     pub fn all(&self) -> impl Iterator<Item = &Package> {
         self.packages.values()
     }

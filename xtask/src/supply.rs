@@ -2,7 +2,7 @@
 //!
 //! The publishing workflow runs cargo-deny itself, which also asks for advisories.
 
-use crate::licence::Expression;
+use crate::licence::{self, Expression};
 use crate::metadata::{Metadata, Package};
 use crate::run::root;
 use anyhow::{Context, Result};
@@ -33,7 +33,7 @@ impl Allowed {
         };
         let exception = |entry: &toml::Value| Ok((name(entry)?, words(entry.get("allow"))));
         Ok(Self {
-            licences: words(at("licenses", "allow")),
+            licences: licence::allowed()?,
             exceptions: list(at("licenses", "exceptions")).iter().map(exception).collect::<Result<_>>()?,
             registries: words(at("sources", "allow-registry")),
             twice: list(at("bans", "skip")).iter().map(name).collect::<Result<_>>()?,
