@@ -13,6 +13,7 @@ use std::time::Instant;
 mod index;
 pub mod licences;
 mod linked;
+pub mod paths;
 pub mod sbom;
 pub mod single;
 
@@ -85,7 +86,11 @@ fn compile(dev: bool) -> Result<PathBuf> {
         .args(["rustc", "--lib", "--crate-type", "cdylib"])
         .args(["--package", "centrode", "--target", WASM])
         .args(["--no-default-features", "--features", "app"])
-        .args(["--profile", profile]))?;
+        .args(["--profile", profile])
+        .args(["--config", &paths::setting()?])
+        // They would take the place of that setting, and make another page.
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS"))?;
     Ok(target().join(WASM).join(profile).join("centrode.wasm"))
 }
 

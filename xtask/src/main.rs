@@ -9,6 +9,7 @@ mod light;
 mod metadata;
 mod package;
 mod renew;
+mod reproduce;
 mod run;
 mod serve;
 mod shot;
