@@ -24,7 +24,7 @@ use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::preset::{self, CHAINS, PRESETS};
 use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
 use centrode_core::scenario::{ChainScenario, Scenario, ScenarioError};
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Parser, Subcommand};
 use output::Failure;
 use std::fs::File;
@@ -186,6 +186,7 @@ pub fn main() -> ExitCode {
             )
             .report();
         }
+        Err(error) if names(&error, "--shard") => return Failure::Input(WITHOUT_SHARES.into()).report(),
         Err(error) => return Failure::Input(one_line(&error.to_string())).report(),
     };
     interrupt::listen();
@@ -206,6 +207,17 @@ pub fn main() -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.report(),
     }
+}
+
+/// What has no shares, and why.
+const WITHOUT_SHARES: &str = "--shard: only `centrode study` is made in shares; a run, a figure and a map are computed once, without repeats to split, \
+     and table2 is made at once";
+
+/// Whether an argument that is not known begins like this.
+fn names(error: &clap::Error, flag: &str) -> bool {
+    let argument = error.get(ContextKind::InvalidArg);
+    let known = matches!(argument, Some(ContextValue::String(argument)) if argument == flag);
+    known && error.kind() == ErrorKind::UnknownArgument
 }
 
 fn presets(out: &mut impl Write) -> Result<(), Failure> {

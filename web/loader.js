@@ -54,8 +54,8 @@ const hooks = {
   lost: (message) => fail(showLost, message),
   address: tell,
   save,
-  // A single file holds the theory, too, and shows it where it is asked for.
-  open: (page) => window.open(new URL(SINGLE ? page.replace("theory.html", "?theory") : page, location.href), "_blank", "noopener"),
+  // A single file holds the documents, too, and shows one where it is asked for.
+  open: (page) => window.open(new URL(SINGLE ? page.replace(/^(theory|licences)\.html/, "?$1") : page, location.href), "_blank", "noopener"),
   post: (json) => host?.post(JSON.parse(json)),
   // Set once the program is there.
   keep: () => {},

@@ -36,6 +36,7 @@ pub struct Entry {
 
 /// What was true of the robot at one instant.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Truth {
     /// Which of the plan's contacts holds the backbone, counted from 0; none while the robot is free.
     pub held: Option<usize>,

@@ -22,6 +22,7 @@ pub const MAX_KEPT: usize = 1_000_000;
 
 /// Everything at one instant of the loop.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Sample {
     /// Time, s.
     pub time: f64,
@@ -129,6 +130,7 @@ const fn extra(method: Method, name: &'static str, unit: &'static str, value: fn
 
 /// What changed when a run was brought up to date, the first of the stages that were made anew.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Anew {
     /// Nothing.
     Nothing,

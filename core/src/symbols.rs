@@ -7,6 +7,7 @@ use std::ops::Range;
 
 /// A symbol of the model, of the detectors or of their settings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Symbol {
     /// Its name in addresses: lower case letters, digits and `-`.
     pub id: &'static str,

@@ -99,6 +99,7 @@ impl App {
                 Command::Log(wish) => self.wish_of_log(wish),
                 Command::Lesson(wish) => self.wish_of_lesson(ctx, wish),
                 Command::Theory(symbol) => self.theory(symbol),
+                Command::Licences => self.licences(),
                 Command::Share(what) => self.share(ctx, what),
                 Command::Mark(mark, time) => self.mark(mark, time),
                 Command::MarkHere(mark) => self.mark(mark, Some(self.cursor())),

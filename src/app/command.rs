@@ -141,6 +141,8 @@ pub enum Command {
     ToggleKeys,
     /// Open the theory, at a symbol or at its beginning.
     Theory(Option<&'static Symbol>),
+    /// Open the list of whose work the page is made of.
+    Licences,
     /// Hand something out, or ask for something to come in.
     Share(Share),
     /// Put a mark at a time, s, or take it away.

@@ -30,6 +30,8 @@ use centrode_core::symbols::Symbol;
 pub const MAX_FILE: usize = 1 << 20;
 /// The theory, from this page.
 const THEORY: &str = "theory.html";
+/// Whose work the page is made of, from this page.
+const LICENCES: &str = "licences.html";
 /// How long something said in passing is shown, s.
 const SAID: f64 = 2.5;
 
@@ -214,6 +216,11 @@ impl App {
     pub(super) fn theory(&mut self, symbol: Option<&Symbol>) {
         let at = symbol.map_or_else(String::new, |symbol| format!("#{}", symbol.anchor()));
         self.sharing.hand_out(Effect::Open(format!("{THEORY}{at}")));
+    }
+
+    /// Opens the list of whose work the page is made of.
+    pub(super) fn licences(&mut self) {
+        self.sharing.hand_out(Effect::Open(LICENCES.into()));
     }
 
     pub(super) fn load_link(&mut self, link: &Link) {

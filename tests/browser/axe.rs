@@ -48,10 +48,13 @@ fn axe_finds_nothing_on_a_phone() {
 }
 
 #[test]
-fn axe_finds_nothing_in_the_theory() {
-    for dark in [false, true] {
-        let mut page = Page::read("theory.html", Options { dark, ..Options::default() });
-        assert_eq!(found(&mut page), Vec::<String>::new());
+fn axe_finds_nothing_in_the_documents() {
+    for (document, dark) in
+        [("theory.html", false), ("theory.html", true), ("licences.html", false), ("licences.html", true)]
+    {
+        let mut page = Page::read(document, Options { dark, ..Options::default() });
+        assert_eq!(found(&mut page), Vec::<String>::new(), "{document}");
+        assert_eq!(page.problems(), Vec::<String>::new(), "{document}");
     }
 }
 

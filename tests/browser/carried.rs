@@ -95,6 +95,11 @@ fn a_single_file_opens_from_a_disk() {
     let links = page.eval("[...document.querySelectorAll('a')].map(a => a.href).filter(h => h.includes('#preset='))");
     let links: Vec<String> = serde_json::from_value(links).expect("links");
     assert!(links.len() > 5 && links.iter().all(|link| link.starts_with(&format!("{address}?#"))), "{links:?}");
+
+    page.browse(&format!("{address}?licences"));
+    page.wait("the licences", |page| {
+        (page.eval("document.querySelectorAll('details pre').length > 50") == true).then_some(())
+    });
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 

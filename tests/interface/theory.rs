@@ -151,7 +151,7 @@ fn press(page: &mut Page, pos: Pos2) {
 }
 
 #[test]
-fn the_help_opens_the_theory() {
+fn the_help_opens_the_theory_and_the_licences() {
     let mut page = page_of(DESK);
     page.get_by_label("Help").click();
     page.run_steps(3);
@@ -159,6 +159,11 @@ fn the_help_opens_the_theory() {
     page.get_by_label("Open the theory").click();
     page.run_steps(2);
     assert_eq!(opened(&mut page), ["theory.html"]);
+    page.get_by_label("Licences of what this page is made of").scroll_to_me();
+    page.run_steps(6);
+    page.get_by_label("Licences of what this page is made of").click();
+    page.run_steps(2);
+    assert_eq!(opened(&mut page), ["licences.html"]);
     assert!(!app(&page).is_working());
 }
 

@@ -16,7 +16,7 @@ fn current(path: &str, text: &str) {
 
 #[test]
 fn the_commented_default_is_written_from_the_table() {
-    current("assets/scenario.toml", &document::commented_default());
+    current("core/assets/scenario.toml", &document::commented_default());
 }
 
 #[test]

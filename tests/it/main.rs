@@ -25,6 +25,7 @@ mod documented;
 mod edges;
 #[cfg(feature = "cli")]
 mod example_logs;
+mod examples;
 mod experiment;
 #[cfg(feature = "cli")]
 mod figure;
@@ -61,6 +62,9 @@ mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]
 mod shaders;
+mod shares;
+#[cfg(all(feature = "cli", unix))]
+mod shares_command;
 #[cfg(feature = "cli")]
 mod study_command;
 mod support;

@@ -33,7 +33,7 @@ fn highest(run: &Run) -> f64 {
 
 #[test]
 fn model_prints_the_reference() {
-    let data: Value = serde_json::from_str(include_str!("../data/touch.json")).expect("reference data");
+    let data: Value = serde_json::from_str(include_str!("../../core/tests/data/touch.json")).expect("reference data");
     let (length, stiffness) = (0.03, 0.002 + 3.0 * 0.001);
     for case in data["cases"].as_array().expect("cases") {
         let number = |key: &str| case[key].as_str().expect(key).parse::<f64>().expect(key);

@@ -11,6 +11,10 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 mod index;
+pub mod licences;
+mod linked;
+pub mod paths;
+pub mod sbom;
 pub mod single;
 
 /// Files by their path inside the page.
@@ -47,7 +51,8 @@ pub fn build(which: Which) -> Result<PathBuf> {
     let start = Instant::now();
     tools::wasm_target()?;
     let module = compile(dev)?;
-    let files = page(&root(), bind(&module)?, &theory::make()?, which == Which::WithSingle)?;
+    let beside = Beside::make()?;
+    let files = page(&root(), bind(&module)?, &beside, which == Which::WithSingle)?;
     let dist = root().join("dist");
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
@@ -55,6 +60,22 @@ pub fn build(which: Which) -> Result<PathBuf> {
         transfer::print(&files);
     }
     Ok(dist)
+}
+
+/// Documents beside the page.
+struct Beside {
+    theory: theory::Made,
+    /// Whose work the page is made of, HTML.
+    licences: String,
+    /// Everything that it is built from, CycloneDX as JSON.
+    sbom: String,
+}
+
+impl Beside {
+    fn make() -> Result<Self> {
+        let parts = linked::parts()?;
+        Ok(Self { theory: theory::make()?, licences: licences::page(&parts)?, sbom: sbom::document(&parts)? })
+    }
 }
 
 /// Compiles the library as a wasm module.
@@ -65,7 +86,11 @@ fn compile(dev: bool) -> Result<PathBuf> {
         .args(["rustc", "--lib", "--crate-type", "cdylib"])
         .args(["--package", "centrode", "--target", WASM])
         .args(["--no-default-features", "--features", "app"])
-        .args(["--profile", profile]))?;
+        .args(["--profile", profile])
+        .args(["--config", &paths::setting()?])
+        // They would take the place of that setting, and make another page.
+        .env_remove("RUSTFLAGS")
+        .env_remove("CARGO_ENCODED_RUSTFLAGS"))?;
     Ok(target().join(WASM).join(profile).join("centrode.wasm"))
 }
 
@@ -97,7 +122,7 @@ fn bind(module: &Path) -> Result<Files> {
 
 /// All files of the page. What never changes under one name lies in a directory named by its content,
 /// so that no browser can mix two builds.
-fn page(root: &Path, mut parts: Files, theory: &theory::Made, with_single: bool) -> Result<Files> {
+fn page(root: &Path, mut parts: Files, beside: &Beside, with_single: bool) -> Result<Files> {
     for entry in fs::read_dir(root.join("web")).context("web/")? {
         let path = entry?.path();
         let name = path.file_name().unwrap_or_default().to_string_lossy();
@@ -115,20 +140,23 @@ fn page(root: &Path, mut parts: Files, theory: &theory::Made, with_single: bool)
     let values = [
         ("BUILD", folder.as_str()),
         ("STYLE", style.trim_end()),
-        ("POSTER", theory.poster.trim_end()),
+        ("POSTER", beside.theory.poster.trim_end()),
         ("WASM_BYTES", &bytes),
     ];
-    let single = with_single.then(|| single::page(&html, &values, &parts, &theory.html)).transpose()?;
+    let single = with_single.then(|| single::page(&html, &values, &parts, beside)).transpose()?;
     let index = index::secured(&index::fill(&index::beside(&html, index::From::Host)?, &values)?, index::From::Host)?;
 
     let mut files: Files = parts.into_iter().map(|(name, bytes)| (format!("{folder}/{name}"), bytes)).collect();
     let manifest = index::fill(&read("web/manifest.webmanifest")?, &values)?;
     files.insert(MANIFEST.into(), manifest.into_bytes());
-    files.insert(theory::NAME.into(), theory.html.clone().into_bytes());
+    files.insert(theory::NAME.into(), beside.theory.html.clone().into_bytes());
+    files.insert(licences::NAME.into(), beside.licences.clone().into_bytes());
     let kept = serde_json::to_string(&files.keys().collect::<Vec<_>>())?;
     let keeper = index::fill(&read(&format!("web/{KEEPER}"))?, &[("BUILD", &folder), ("FILES", &kept)])?;
     files.insert(KEEPER.into(), keeper.into_bytes());
     files.insert("index.html".into(), index.into_bytes());
+    // Who looks at that has a network.
+    files.insert(sbom::NAME.into(), beside.sbom.clone().into_bytes());
     files.extend(single.map(|single| (single::NAME.to_owned(), single)));
     // A host page to try the page in a frame on.
     files.insert("examples/embed.html".into(), fs::read(root.join("examples/embed.html"))?);
@@ -158,8 +186,9 @@ fn write(dist: &Path, files: &Files) -> Result<()> {
 mod tests {
     use super::*;
 
-    fn theory() -> theory::Made {
-        theory::Made { html: "theory".into(), poster: "<svg/>".into() }
+    fn beside() -> Beside {
+        let theory = theory::Made { html: "theory".into(), poster: "<svg/>".into() };
+        Beside { theory, licences: "licences".into(), sbom: "{}".into() }
     }
 
     fn parts() -> Files {
@@ -168,7 +197,7 @@ mod tests {
 
     #[test]
     fn every_reference_of_the_page_is_relative_and_exists() {
-        let files = page(&root(), parts(), &theory(), false).unwrap();
+        let files = page(&root(), parts(), &beside(), false).unwrap();
         let index = String::from_utf8(files["index.html"].clone()).unwrap();
         let mut references = 0;
         for attribute in ["src=\"", "href=\""] {
@@ -191,13 +220,17 @@ mod tests {
     #[test]
     fn another_module_gets_another_address() {
         let folder = |files: &Files| files.keys().find(|name| name.starts_with("build-")).unwrap().clone();
-        let one = page(&root(), parts(), &theory(), false).unwrap();
+        let one = page(&root(), parts(), &beside(), false).unwrap();
         let mut changed = parts();
         changed.insert("centrode_bg.wasm".into(), vec![1; 123]);
         let keeper = String::from_utf8(one[KEEPER].clone()).unwrap();
-        assert!(keeper.contains(&format!("\"{}\"", folder(&one))) && keeper.contains("\"theory.html\""));
-        let other = page(&root(), changed, &theory(), false).unwrap();
+        assert!(
+            keeper.contains(&format!("\"{}\"", folder(&one)))
+                && keeper.contains("\"theory.html\"")
+                && keeper.contains("\"licences.html\"")
+        );
+        let other = page(&root(), changed, &beside(), false).unwrap();
         assert_ne!(folder(&one), folder(&other));
-        assert_eq!(folder(&one), folder(&page(&root(), parts(), &theory(), false).unwrap()));
+        assert_eq!(folder(&one), folder(&page(&root(), parts(), &beside(), false).unwrap()));
     }
 }

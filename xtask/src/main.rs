@@ -3,12 +3,18 @@
 //! Run as `cargo xtask COMMAND`.
 
 mod build;
+mod licence;
 #[cfg(test)]
 mod light;
+mod metadata;
+mod package;
 mod renew;
+mod reproduce;
 mod run;
 mod serve;
 mod shot;
+#[cfg(test)]
+mod supply;
 mod test;
 mod theory;
 mod tidy;

@@ -3,7 +3,7 @@
 use crate::build::{self, Which};
 use crate::run::{cargo, run};
 use crate::tools::{self, WASM};
-use crate::{serve, theory};
+use crate::{package, reproduce, serve, theory};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 /// Options of `cargo xtask test`.
 #[derive(Args)]
 pub struct Options {
-    /// Stages to run [default: all]
+    /// Stages to run [default: all but reproducible]
     stages: Vec<Stage>,
     /// Test the page that is fast to build instead of the published one
     #[arg(long)]
@@ -27,6 +27,12 @@ pub struct Options {
 const PRODUCT: [&str; 7] =
     ["--package", "centrode", "--package", "centrode-core", "--package", "centrode-theory", "--all-features"];
 
+impl Options {
+    fn wants(&self, stage: Stage) -> bool {
+        self.stages.contains(&stage) || self.stages.is_empty() && stage != Stage::Reproducible
+    }
+}
+
 #[derive(Clone, Copy, PartialEq, Eq, Debug, ValueEnum)]
 enum Stage {
     /// The code is formatted
@@ -39,17 +45,20 @@ enum Stage {
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
+    /// What others use is packed and compiled as they get it, and with the oldest Rust that it states
+    Package,
     /// The page and the theory beside it are built, their sizes are told
     Page,
     /// The built page in a real browser
     Browser,
+    /// Built in another folder, the published page is the same bytes; only when it is named, for it builds everything a second time
+    Reproducible,
 }
 
 /// Runs the stages asked for, all of them even when one fails, and sums up.
 pub fn command(options: &Options) -> Result<()> {
     let all = Stage::value_variants();
-    let wanted: Vec<Stage> =
-        all.iter().filter(|stage| options.stages.is_empty() || options.stages.contains(stage)).copied().collect();
+    let wanted: Vec<Stage> = all.iter().filter(|stage| options.wants(**stage)).copied().collect();
     let mut results: Vec<(Stage, Duration, Result<()>)> = Vec::new();
     let mut dist = None;
     for stage in wanted {
@@ -95,10 +104,13 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
         }
         Stage::Native => {
             tools::software_gpu()?;
+            tools::parallel();
             run(cargo().arg("test").args(PRODUCT).arg("--").args(&options.arguments))?;
             run(cargo().args(["test", "--package", "xtask", "--"]).args(&options.arguments))
         }
+        Stage::Package => package::check(),
         Stage::Page => page(options.dev, dist).map(drop),
+        Stage::Reproducible => reproduce::check(&page(false, dist)?),
         Stage::Browser => {
             let (browser, axe) = (tools::browser()?, tools::axe()?);
             // Not at the root, so that an absolute address anywhere in the page shows.
@@ -124,6 +136,7 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
     }
     let built = build::build(if dev { Which::Dev } else { Which::WithSingle })?;
     theory::check(&std::fs::read_to_string(built.join(theory::NAME))?)?;
+    reproduce::names_no_place(&built)?;
     Ok(dist.insert(built).clone())
 }
 
@@ -168,5 +181,9 @@ mod tests {
         assert_eq!(line.options.stages, [Stage::Native, Stage::Browser]);
         assert_eq!(line.options.arguments, ["slider"]);
         assert!(Line::try_parse_from(["test", "everything"]).is_err());
+        // What builds everything twice is not among what runs by itself.
+        assert!(!line.options.wants(Stage::Page));
+        let all = Line::try_parse_from(["test"]).unwrap().options;
+        assert!(all.wants(Stage::Page) && all.wants(Stage::Browser) && !all.wants(Stage::Reproducible));
     }
 }

@@ -1,5 +1,6 @@
-//! The rules of the house that are ours to check: who may import whom, how long a file may be.
+//! The rules of the house that are ours to check: who may import whom, how long a file may be, why a dependency is there.
 
+mod dependencies;
 mod rules;
 
 use crate::run::root;
@@ -39,6 +40,7 @@ fn check(root: &Path) -> Result<Vec<String>> {
             offences.push(format!("{name}:{line}: {rule}"));
         }
     }
+    offences.extend(dependencies::check(root)?);
     Ok(offences)
 }
 

@@ -85,6 +85,16 @@ pub fn software_gpu() -> Result<()> {
     install(&["mesa-vulkan-drivers"]).context("the interface tests need a Vulkan driver")
 }
 
+/// GNU parallel, by which an example of the documents is run. Without it the same lines are run by xargs, which is said.
+pub fn parallel() {
+    if succeeds(Command::new("parallel").arg("--version")) {
+        return;
+    }
+    if let Err(error) = install(&["parallel"]) {
+        println!("the example with GNU parallel is run by xargs: {error:#}");
+    }
+}
+
 fn has_vulkan_driver() -> bool {
     ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d"]
         .iter()

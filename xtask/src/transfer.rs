@@ -1,6 +1,6 @@
 //! How much a visitor downloads.
 
-use crate::build::single;
+use crate::build::{licences, sbom, single};
 use crate::theory;
 use std::collections::BTreeMap;
 use std::thread;
@@ -33,10 +33,12 @@ pub fn print(files: &BTreeMap<String, Vec<u8>>) {
     );
 }
 
-/// Whether whoever opens the page loads a file: neither the theory nor the page as a single file, nor icons of an installed page, nor a host
-/// page to try it in.
+/// Whether whoever opens the page loads a file: neither the theory, the licences, the list of parts nor the page as a single file, nor icons of
+/// an installed page, nor a host page to try it in.
 fn visited(name: &str) -> bool {
-    ![theory::NAME, single::NAME].contains(&name) && !name.ends_with(".png") && !name.starts_with("examples/")
+    ![theory::NAME, licences::NAME, sbom::NAME, single::NAME].contains(&name)
+        && !name.ends_with(".png")
+        && !name.starts_with("examples/")
 }
 
 /// Size after brotli at the level at which static hosts store files.
@@ -56,7 +58,14 @@ mod tests {
         for name in ["index.html", "build-1/centrode_bg.wasm", "build-1/icon.svg", "offline-worker.js"] {
             assert!(visited(name), "{name}");
         }
-        for name in ["theory.html", "centrode.html", "build-1/icon-512.png", "examples/embed.html"] {
+        for name in [
+            "theory.html",
+            "licences.html",
+            "sbom.cdx.json",
+            "centrode.html",
+            "build-1/icon-512.png",
+            "examples/embed.html",
+        ] {
             assert!(!visited(name), "{name}");
         }
     }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 /// A threshold crossed upward.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Crossing {
     /// Which value crossed.
     pub method: Method,
@@ -48,6 +49,7 @@ pub struct Event {
 
 /// An alarm of the centrode, with the place that Eq. 24 gives it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Detection {
     /// When, s.
     pub time: f64,

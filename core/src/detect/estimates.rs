@@ -14,6 +14,7 @@ use std::collections::BTreeMap;
 
 /// One estimate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Estimated {
     /// Time since the alarm, s.
     pub after: f64,
@@ -42,6 +43,7 @@ pub struct Error {
 
 /// Errors of the calibration, as they were estimated. SI units; with the meaning and sign of the keys of `calibration`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Calibrated {
     /// Offset of the tracker's frame along x, y and z of {B}, m.
     pub frame: [Error; 3],

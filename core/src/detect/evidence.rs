@@ -17,6 +17,7 @@ const ROUNDING: f64 = 1e-12;
 
 /// What the methods make of one instant. A value that is not defined is NaN, never 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Judgement {
     /// The model's centrode c_m, m (Eq. 17); its limit while the robot rests.
     pub model_centrode: Vec3,
@@ -83,6 +84,7 @@ impl Held {
 
 /// What is known of one instant without a threshold.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Evidence {
     /// Position and motion of the end disk as the filtered tracker shows them.
     pub motion: FilteredMotion,
@@ -92,6 +94,7 @@ pub struct Evidence {
 
 /// What the free model expects in a commanded configuration: the same in every repeat.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Expectation {
     /// The model's centrode c_m, m (Eq. 17); NaN where it has none.
     pub centrode: Vec3,

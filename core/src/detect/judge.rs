@@ -209,6 +209,7 @@ fn assumption(plan: &Plan) -> Assumption {
 
 /// What is concluded from a recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Judged {
     /// With what it was judged.
     pub settings: Settings,

@@ -24,6 +24,7 @@ pub enum Happening {
 
 /// An event of the plant. It is truth, which no detector sees.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PlantEvent {
     /// What happens.
     pub what: Happening,

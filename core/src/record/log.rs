@@ -34,6 +34,7 @@ pub const MAX_BYTES: u64 = 1 << 30;
 /// How a log is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Format {
     /// Columns with a header.
     Csv,

@@ -44,6 +44,7 @@ impl PartialEq for Link {
 
 /// Why there is no link.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[non_exhaustive]
 pub enum LinkError {
     /// It would be longer than [`MAX_LINK`].
     #[error(

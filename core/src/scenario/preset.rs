@@ -5,6 +5,7 @@ use crate::scenario::{ChainError, ChainScenario, Scenario, ScenarioError};
 
 /// A scenario with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Preset {
     /// Name, as `--preset` takes it.
     pub name: &'static str,
@@ -14,13 +15,13 @@ pub struct Preset {
 
 macro_rules! presets {
     ($($name:literal),* $(,)?) => {
-        &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/", $name, ".toml")) }),*]
+        &[$(Preset { name: $name, toml: include_str!(concat!("../../assets/presets/", $name, ".toml")) }),*]
     };
 }
 
 macro_rules! chains {
     ($($name:literal),* $(,)?) => {
-        &[$(Preset { name: $name, toml: include_str!(concat!("../../../assets/presets/chain/", $name, ".toml")) }),*]
+        &[$(Preset { name: $name, toml: include_str!(concat!("../../assets/presets/chain/", $name, ".toml")) }),*]
     };
 }
 

@@ -6,6 +6,7 @@ use thiserror::Error;
 
 /// Why a scenario is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum ScenarioError {
     /// A value that cannot be.
     #[error("{0}")]

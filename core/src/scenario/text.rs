@@ -7,7 +7,7 @@ use crate::scenario::refusal::{Refused, ScenarioError};
 use toml::Table;
 
 /// The default scenario, every key with its unit and meaning, as `centrode scenario` prints it.
-pub const DEFAULT_TOML: &str = include_str!("../../../assets/scenario.toml");
+pub const DEFAULT_TOML: &str = include_str!("../../assets/scenario.toml");
 
 /// A scenario being put together: a file or preset, then overrides, then a check.
 ///

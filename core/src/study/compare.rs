@@ -23,6 +23,7 @@ use limits::Limits;
 use outcome::{Making, Task};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ops::Range;
 use thiserror::Error;
 
 /// The longest run, in samples.
@@ -45,6 +46,7 @@ pub struct Spec {
 
 /// Why nothing can be compared.
 #[derive(Debug, Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// The scenario is impossible.
     #[error(transparent)]
@@ -148,6 +150,11 @@ impl Compare {
     #[must_use]
     pub fn repeats(&self) -> u64 {
         self.outcomes.len() as u64
+    }
+
+    /// The repeats of a range that are made, each with what it came to.
+    pub fn made(&self, repeats: Range<u64>) -> impl Iterator<Item = (u64, &Outcome)> {
+        self.outcomes.range(repeats).map(|(repeat, outcome)| (*repeat, outcome))
     }
 
     /// The pieces that are not made.

@@ -27,6 +27,7 @@ const NEARLY: f64 = 1.0 - 1e-9;
 /// The map of a scenario's motion, without noise, of the robot as calibrated: `calibration` plays no part in it, nor does the scenario's
 /// own contact.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct ContactMap {
     /// Arc lengths s_c of the contact, m: the rows' middles, from the base up.
     pub arc_lengths: Vec<f64>,

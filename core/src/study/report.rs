@@ -28,6 +28,7 @@ pub struct TooMany {
 
 /// What a run or a log comes to. SI units; `L` is how a log was read.
 #[derive(Debug, Serialize)]
+#[non_exhaustive]
 pub struct Report<L = ()> {
     /// What was run.
     pub scenario: Scenario,
@@ -146,6 +147,7 @@ pub const PLACED: usize = 15;
 
 /// The contact of a later alarm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Next {
     /// When the alarm was raised, s.
     pub raised: f64,
@@ -155,6 +157,7 @@ pub struct Next {
 
 /// What is concluded from a run as a whole.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct Conclusions {
     /// [`Report::placed`].
     pub placed: Option<Event>,
@@ -285,6 +288,7 @@ pub struct Found {
 
 /// Largest values judged; null where nothing was.
 #[derive(Debug, Default, Serialize)]
+#[non_exhaustive]
 pub struct Peaks {
     /// Of the centrode, m.
     pub deviation: Option<Peak>,
@@ -294,6 +298,7 @@ pub struct Peaks {
 
 /// A largest value.
 #[derive(Debug, Clone, Copy, Serialize)]
+#[non_exhaustive]
 pub struct Peak {
     /// When, s.
     pub time: f64,

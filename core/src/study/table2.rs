@@ -42,6 +42,7 @@ pub enum Outcome {
 
 /// One experiment: a row of the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Row {
     /// The disk in contact, counted from 1 at the base.
     pub disk: u64,
@@ -125,6 +126,7 @@ impl Disk {
 
 /// Table II three times, disk by disk.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Table2 {
     /// From the rows that the paper prints.
     pub paper: [Disk; 3],
@@ -153,7 +155,7 @@ struct Met {
 /// It does not say when contact began: every row counts as found.
 #[must_use]
 pub fn paper_rows() -> Vec<Row> {
-    numbers(include_str!("../../../assets/table2.csv"))
+    numbers(include_str!("../../assets/table2.csv"))
         .map(|[disk, detection_time, theta_l, location]| Row {
             disk: disk as u64,
             outcome: Outcome::Found,
@@ -169,7 +171,7 @@ pub fn paper_rows() -> Vec<Row> {
 pub fn paper_disks() -> [[f64; 2]; 3] {
     let mut disks = [[f64::NAN; 2]; 3];
     for (disk, [_, arc_length, deviation]) in
-        disks.iter_mut().zip(numbers(include_str!("../../../assets/table2-disks.csv")))
+        disks.iter_mut().zip(numbers(include_str!("../../assets/table2-disks.csv")))
     {
         *disk = [arc_length, deviation];
     }

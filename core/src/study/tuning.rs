@@ -9,6 +9,7 @@
 pub mod batch;
 pub mod chart;
 pub mod levels;
+mod pieces;
 pub mod rate;
 pub mod recommend;
 mod sight;
@@ -17,7 +18,7 @@ pub mod tally;
 pub mod watch;
 
 use super::seed::repeat_seed;
-use super::shared::{KEPT, Kept};
+use super::shared::Kept;
 use super::{Job, Progress};
 use crate::run::kept;
 use crate::scenario::keys::allowed::NOT_NEGATIVE;
@@ -34,9 +35,6 @@ pub const MAX_REPEATS: usize = 10_000_000;
 
 /// The most thresholds that one study counts, over all its scenarios and rules: up to 1 GB of counts.
 pub const MAX_COUNTS: usize = 20_000_000;
-
-/// Repeats that a batch makes in its turn where there are many batches.
-const TURN: u64 = 64;
 
 /// What is to be studied.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -65,6 +63,7 @@ impl Spec {
 
 /// One combination of settings.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Cell {
     /// What it changes.
     pub set: Vec<Override>,
@@ -78,6 +77,7 @@ pub struct Cell {
 
 /// What one threshold comes to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Point {
     /// ξ2 (m) or ξ1 (N·m, or k).
     pub threshold: f64,
@@ -188,19 +188,6 @@ impl Study {
     #[must_use]
     pub fn cells(&self) -> &[Cell] {
         &self.cells
-    }
-
-    /// Which batch and which repeat the `piece`-th piece of work is, of [`Progress::of`]: the batches take turns, so that
-    /// whoever stops early has equally many repeats of each.
-    #[must_use]
-    pub fn piece(&self, piece: u64) -> (usize, u64) {
-        let (batches, repeats) = (self.batches.len() as u64, self.spec.repeats as u64);
-        // Where not all keep what their repeats share, each takes several in its turn.
-        let turn = if self.batches.len() > KEPT { TURN } else { 1 };
-        let round = piece / (turn * batches);
-        let size = turn.min(repeats.saturating_sub(round * turn)).max(1);
-        let within = piece - round * turn * batches;
-        ((within / size % batches) as usize, round * turn + within % size)
     }
 
     /// Makes one repeat of one batch; changes nothing, so that many can be made at once.
@@ -446,26 +433,7 @@ mod tests {
         }
     }
 
-    #[test]
-    fn pieces_are_every_repeat_of_every_batch_once_and_many_batches_take_long_turns() {
-        for (cells, repeats) in [(2, 3), (20, 150), (20, 64), (20, 1)] {
-            let study = Study::new(Spec { repeats, ..spec(cells) }).expect("possible");
-            let of = study.progress().of;
-            let pieces: Vec<(usize, u64)> = (0..of).map(|piece| study.piece(piece)).collect();
-            let turns = 1 + pieces.windows(2).filter(|pair| pair[0].0 != pair[1].0).count();
-            assert!(
-                study.batches().len() <= KEPT || turns <= of as usize / repeats.min(22),
-                "{cells} {repeats}: {turns}"
-            );
-            let mut all = pieces;
-            all.sort_unstable();
-            all.dedup();
-            assert_eq!(all.len() as u64, of);
-            assert!(all.iter().all(|&(batch, repeat)| batch < study.batches().len() && repeat < repeats as u64));
-        }
-    }
-
-    fn spec(cells: u32) -> Spec {
+    pub(super) fn spec(cells: u32) -> Spec {
         let cells = (1..=cells).map(|seed| vec![whole("seed", u64::from(seed)).expect("a key")]).collect();
         Spec { cells, ..Spec::of(Scenario::default(), MAX_REPEATS) }
     }

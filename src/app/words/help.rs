@@ -111,6 +111,10 @@ pub fn help(ui: &mut Ui, (sound, by_key): (bool, bool), out: &mut Vec<Command>) 
                 }
                 ui.add_space(10.0);
                 keys::table(ui, &theme);
+                ui.add_space(10.0);
+                if ui.link("Licences of what this page is made of").clicked() {
+                    out.push(Command::Licences);
+                }
             },
         );
         close.clicked()

@@ -1,15 +1,17 @@
 //! Detectors side by side.
 
 use super::StudyArgs;
-use super::work;
-use crate::cli::draw::{self, Format};
+use super::outputs::Files;
+use super::{share as made, work};
+use crate::cli::draw;
 use crate::cli::estimating::method;
-use crate::cli::output::{Failure, NewFile, json};
+use crate::cli::output::{Failure, json};
 use centrode_core::detect::Method;
 use centrode_core::scenario::keys::Quantity;
 use centrode_core::scenario::link::Page;
 use centrode_core::scenario::text::number;
 use centrode_core::scenario::{Detectors, Scenario, Xi1Rule};
+use centrode_core::study::Job;
 use centrode_core::study::compare::chart::chart;
 use centrode_core::study::compare::export::csv;
 use centrode_core::study::compare::{At, Compare, Comparison, Place, Spec, with};
@@ -53,31 +55,39 @@ pub fn execute(args: &StudyArgs, scenario: &Scenario, repeats: usize, out: &mut 
         after: args.estimating.after()?,
     };
     let compare = Compare::new(spec).map_err(|error| Failure::Input(error.to_string()))?;
-    let format = args.svg.as_deref().map(|path| Format::of("--svg", path)).transpose()?;
-    // A file that cannot be written is said before the work, not after it.
-    let [table, drawing] = [&args.csv, &args.svg].map(|path| path.as_deref().map(NewFile::create));
-    let (table, drawing) = (table.transpose()?, drawing.transpose()?);
-    let (compare, partial) = work::compare(compare);
-    let comparison = compare.comparison();
-    if let Some(mut file) = table {
+    if let Some((share, file)) = args.share.open(&args.outputs)? {
+        return made::detectors(share, file, compare, scenario.detection.detectors);
+    }
+    let files = args.outputs.open()?;
+    let compare = work::compare(compare);
+    write(&compare, scenario.detection.detectors, files, out)
+}
+
+/// Reports what was asked for; a drawing links to the scenario with those that judge in it.
+pub fn write(compare: &Compare, judging: Detectors, files: Files, out: &mut impl Write) -> Result<(), Failure> {
+    let (comparison, spec) = (compare.comparison(), compare.spec());
+    let partial = !compare.progress().is_complete();
+    if let Some(mut file) = files.table {
         file.write_all(csv(&comparison, partial).as_bytes()).map_err(|error| file.blame(&error))?;
         file.finish()?;
     }
-    if let (Some(mut file), Some(format)) = (drawing, format) {
-        let compared = Detectors::of(&methods);
-        let (false_alarms, repeats) = (compare.spec().rate, repeats as u64);
-        let page = Page { false_alarms, repeats, compare: compared, ..Page::of("detectors") };
-        draw::write(&mut file, &signed(chart(&compare, &comparison), scenario, page), format)?;
+    if let Some((mut file, format)) = files.drawing {
+        let compared = spec.scenario.detection.detectors;
+        let page =
+            Page { false_alarms: spec.rate, repeats: spec.repeats as u64, compare: compared, ..Page::of("detectors") };
+        let mut scenario = spec.scenario.clone();
+        scenario.detection.detectors = judging;
+        draw::write(&mut file, &signed(chart(compare, &comparison), &scenario, page), format)?;
         file.finish()?;
     }
-    if args.json {
-        json(out, &Report { scenario: &compare.spec().scenario, partial, comparison: &comparison })?;
+    if files.json {
+        json(out, &Report { scenario: &spec.scenario, partial, comparison: &comparison })?;
     } else {
-        text(out, &comparison, scenario.detection.xi1_rule)?;
+        text(out, &comparison, spec.scenario.detection.xi1_rule)?;
     }
     out.flush()?;
     if partial {
-        let (done, of) = (comparison.repeats, compare.spec().repeats);
+        let (done, of) = (comparison.repeats, spec.repeats);
         let line = format!("interrupted after {done} of {of} repeats; the results written are partial");
         return Err(Failure::Interrupted(line));
     }

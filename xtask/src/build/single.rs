@@ -1,7 +1,7 @@
 //! The page as one file that opens from a disk or a mail: its parts are packed inside, and unpacked by the browser.
 
 use super::index::{self, From, text};
-use super::{Files, PROGRAM};
+use super::{Beside, Files, PROGRAM};
 use crate::theory;
 use anyhow::{Result, bail, ensure};
 use base64::{Engine, engine::general_purpose::STANDARD};
@@ -16,8 +16,8 @@ const LARGEST: usize = 4_000_000;
 /// Unpacks the program and the modules, and starts the loader; or shows the theory.
 const UNPACK: &str = include_str!("unpack.js");
 
-/// Makes it of `index.html` as it stands in the repository, what is filled into that, the parts, and the theory.
-pub fn page(html: &str, values: &[(&str, &str)], parts: &Files, theory: &str) -> Result<Vec<u8>> {
+/// Makes it of `index.html` as it stands in the repository, what is filled into that, the parts, and the documents beside it.
+pub(super) fn page(html: &str, values: &[(&str, &str)], parts: &Files, beside: &Beside) -> Result<Vec<u8>> {
     let icon = format!("data:image/svg+xml;base64,{}", STANDARD.encode(text(parts, "icon.svg")?));
     let html = index::beside(html, From::Itself)?
         .replace("@BUILD@/icon.svg", &icon)
@@ -25,9 +25,11 @@ pub fn page(html: &str, values: &[(&str, &str)], parts: &Files, theory: &str) ->
     let program = &parts[PROGRAM];
     let modules = serde_json::to_vec(&ordered(parts)?)?;
     // Its links to the page lead back to this file, whatever it is called.
-    let theory = theory.replace("href=\"./", "href=\"?");
+    let documents =
+        [&beside.theory.html, &beside.licences].map(|html| html.replace("href=\"./", "href=\"?").into_bytes());
+    let [theory, licences] = &documents;
     let mut inside = String::new();
-    for (name, bytes) in [("program", program), ("modules", &modules), ("theory", &theory.into_bytes())] {
+    for (name, bytes) in [("program", program), ("modules", &modules), ("theory", theory), ("licences", licences)] {
         inside += &format!("    <script type=\"application/gzip\" id=\"packed-{name}\">{}</script>\n", packed(bytes)?);
     }
     inside += &format!("    <script data-wasm-bytes=\"{}\">\n{UNPACK}    </script>\n", program.len());
@@ -137,11 +139,17 @@ mod tests {
     fn the_file_needs_nothing_beside_it() {
         let html = std::fs::read_to_string(crate::run::root().join("index.html")).unwrap();
         let values = [("STYLE", ""), ("POSTER", ""), ("WASM_BYTES", "4"), ("BUILD", "build")];
-        let page = page(&html, &values, &parts("1"), "<a href=\"./#seed=3\">").unwrap();
+        let theory = theory::Made { html: "<a href=\"./#seed=3\">".into(), poster: String::new() };
+        let beside = Beside { theory, licences: String::new(), sbom: String::new() };
+        let page = page(&html, &values, &parts("1"), &beside).unwrap();
         let page = String::from_utf8(page).unwrap();
-        for beside in ["build/", "src=", "href=\"theory", "manifest.webmanifest", "preload"] {
+        for beside in ["build/", "src=", "href=\"theory", "sbom", "manifest.webmanifest", "preload"] {
             assert!(!page.contains(beside), "{beside}");
         }
-        assert!(page.contains("href=\"?theory\"") && page.contains("id=\"packed-program\""));
+        assert!(
+            page.contains("href=\"?theory\"")
+                && page.contains("id=\"packed-program\"")
+                && page.contains("id=\"packed-licences\"")
+        );
     }
 }

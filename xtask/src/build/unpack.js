@@ -34,8 +34,8 @@
         }).catch((error) => postMessage({ failed: String(error) }));
       }
 
-      async function showTheory() {
-        const html = await unpacked("theory").text();
+      async function show(name) {
+        const html = await unpacked(name).text();
         document.open();
         // To where the address leads, once all is there: the browser looked for it before.
         addEventListener("load", () => location.hash && location.replace(location.hash));
@@ -54,4 +54,4 @@
       }
       const old = () => centrodeCannotLoad("This browser is too old", "Please open the file in a current Chrome, Edge, Firefox or Safari.");
       if (!globalThis.DecompressionStream) old();
-      else (location.search === "?theory" ? showTheory() : start()).catch((error) => centrodeCannotLoad("The page could not be unpacked", String(error)));
+      else (["?theory", "?licences"].includes(location.search) ? show(location.search.slice(1)) : start()).catch((error) => centrodeCannotLoad("The page could not be unpacked", String(error)));

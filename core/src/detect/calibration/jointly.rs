@@ -40,6 +40,7 @@ pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Q
     let base = if question.segment == 0 { Base::Stays } else { Base::Moves };
     let grid = Grid::coarse(base);
     let seeing = &histories[..hypotheses.seen_by()];
+    let share = 1.0 / together(seeing.len());
     let before: Vec<_> = seeing.iter().map(nominal).collect();
     let roughly = |began: usize| {
         let mut row = Row::silent((began, 0.0));
@@ -47,7 +48,7 @@ pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Q
             let signature = |k| hypotheses.signature(tracker, began as f64, k);
             row.hear(|k| &history.moments[k].stage, innovations, signature);
         }
-        row.most(&grid)
+        row.told(share).most(&grid)
     };
     let began = likeliest(question.beginnings, roughly)?;
     let calibrated: Vec<Calibrated> = seeing
@@ -71,7 +72,7 @@ pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Q
             let signature = |k| hypotheses.signature(tracker, began.0 as f64 + began.1, k);
             row.hear(|k| &about.stages[k], &about.innovations, signature);
         }
-        row
+        row.told(share)
     };
     let (rows, parts) = rows(row, question.beginnings, began, question.parts, &grid);
     let tried = [Tried { kind: Kind::Plane, rows, parts }];
@@ -81,4 +82,31 @@ pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Q
     let calibration: [[f64; STATES]; 2] = [errors(&calibrated[own], &seeing[own]), deviations];
     let beginnings = question.beginnings.len();
     weigh(&tried, &Weighed { base, length: question.length, commands: &commands, beginnings, calibration })
+}
+
+/// By how much the variance of what neighbouring trackers say together can exceed what it would be if their noise were independent.
+///
+/// A tracker's noise is in the readings of its own segment and, with the other sign, in those of the next, which have that of two trackers:
+/// correlations of −√½ between the first two segments and −½ between others. This is the largest eigenvalue of their matrix.
+fn together(trackers: usize) -> f64 {
+    let correlation = |i: usize, j: usize| match (i.min(j), i.abs_diff(j)) {
+        (_, 0) => 1.0,
+        (0, 1) => -std::f64::consts::FRAC_1_SQRT_2,
+        (_, 1) => -0.5,
+        _ => 0.0,
+    };
+    nalgebra::DMatrix::from_fn(trackers, trackers, correlation).symmetric_eigenvalues().max()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn neighbours_that_share_noise_say_less_than_they_seem_to() {
+        for (trackers, exact) in [(1, 1.0), (2, 1.0 + std::f64::consts::FRAC_1_SQRT_2), (3, 1.0 + libm::sqrt(0.75))] {
+            assert!((together(trackers) - exact).abs() < 1e-12, "{trackers}: {}", together(trackers));
+        }
+        assert!(together(12) < 2.0);
+    }
 }

@@ -122,6 +122,13 @@ impl Row {
         Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] }
     }
 
+    /// As if everything heard told only this share of what it seems to.
+    pub fn told(mut self, share: f64) -> Self {
+        self.linear.iter_mut().for_each(|value| *value *= share);
+        self.square.as_flattened_mut().iter_mut().for_each(|value| *value *= share);
+        self
+    }
+
     /// Adds what one tracker hears of them: `signature` is that of a reading after the beginning.
     pub fn hear<'s>(
         &mut self,

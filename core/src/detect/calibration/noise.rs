@@ -109,6 +109,7 @@ pub fn measured(length: f64, belief: &Belief, least: &Noise, commands: &[Command
 
 /// A test of whether innovations are white.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[non_exhaustive]
 pub struct Whiteness {
     /// Ljung and Box's Q: n(n + 2) Σ ρ̂²/(n − lag), summed over components and lags.
     pub statistic: f64,

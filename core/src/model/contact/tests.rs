@@ -49,8 +49,7 @@ fn meeting(place: f64, bend: f64) -> Meeting {
 
 #[test]
 fn a_plane_has_the_reference_values() {
-    let reference: Reference =
-        serde_json::from_str(include_str!("../../../../tests/data/touch.json")).expect("reference");
+    let reference: Reference = serde_json::from_str(include_str!("../../../tests/data/touch.json")).expect("reference");
     assert_eq!(reference.cases.len(), 25);
     let basis = Basis::new();
     for case in &reference.cases {

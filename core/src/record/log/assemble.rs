@@ -91,6 +91,7 @@ const SPACINGS: f64 = 5.0;
 
 /// A log as a recording, with the scenario that it is judged by.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Assembled {
     /// The nominal scenario at the loop's rate: model, filter and thresholds.
     pub plan: Plan,

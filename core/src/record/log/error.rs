@@ -7,6 +7,7 @@ use thiserror::Error;
 /// Why a log is refused: where, what stands there, and what is allowed.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 #[error("{}", told(self, .way))]
+#[non_exhaustive]
 pub struct LogError {
     /// Where.
     pub place: Place,

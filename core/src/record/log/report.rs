@@ -47,6 +47,7 @@ impl fmt::Display for Place {
 /// What can happen to rows of a log on their way into a recording.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Happening {
     /// The file ends within a row.
     Cut,
@@ -146,6 +147,7 @@ impl Happening {
 
 /// How often something happened, and where first.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Count {
     /// What happened.
     pub what: Happening,
@@ -171,6 +173,7 @@ impl fmt::Display for Count {
 
 /// What was done with the rows of a log. Nothing is ever interpolated.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Rows of a text file, or messages of a binary one, that were read.
     pub rows: u64,

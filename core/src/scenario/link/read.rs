@@ -12,6 +12,7 @@ use thiserror::Error;
 
 /// A part of a link that was not taken as it stands there.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Broken {
     /// The key as written; empty where there is none.
     pub key: String,
@@ -25,6 +26,7 @@ pub struct Broken {
 
 /// Why a part of a link was not taken.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum Why {
     /// The whole link is longer than [`MAX_LINK`].
     #[error("the link is {bytes} bytes long, and at most {MAX_LINK} are read")]

@@ -19,6 +19,7 @@ const BEYOND: f64 = 1.25;
 
 /// What a comparison comes to. SI units; NaN where a value is not defined.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Comparison {
     /// Runs without, and as many with contact.
     pub repeats: u64,
@@ -42,6 +43,7 @@ pub struct Comparison {
 
 /// The delay that no test can beat at a rate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Bound {
     /// The share of runs without contact that alarm.
     pub rate: f64,
@@ -52,6 +54,7 @@ pub struct Bound {
 
 /// One detector.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Compared {
     /// Its key.
     pub detector: &'static str,
@@ -67,6 +70,7 @@ pub struct Compared {
 
 /// One detector at one threshold.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct At {
     /// In the unit of its setting.
     pub threshold: f64,
@@ -98,6 +102,7 @@ impl At {
 
 /// Places by one estimator, so long after the alarm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Place {
     /// Its key.
     pub estimator: &'static str,

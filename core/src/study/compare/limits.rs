@@ -13,6 +13,7 @@ const RATES: [f64; 12] = [0.0025, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 
 
 /// Delays, s.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Delay {
     /// The median.
     pub median: f64,
@@ -22,6 +23,7 @@ pub struct Delay {
 
 /// The least standard deviation that an unbiased estimate of the place can have.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PlaceBound {
     /// Time since the contact, s.
     pub since: f64,

@@ -4,6 +4,7 @@ use crate::detect::Method;
 use crate::detect::estimates::Estimated;
 use crate::run::{Run, Unfinished};
 use crate::scenario::{Estimator, Plan};
+use crate::study::exact::{self, Exact};
 use crate::study::seed::repeat_seed;
 use crate::study::tuning::watch::NEVER;
 use serde::{Deserialize, Serialize};
@@ -12,7 +13,7 @@ use serde::{Deserialize, Serialize};
 const STRETCH: [usize; 2] = [1000, 20_000];
 
 /// Where the largest value so far of a detector rose, in one run: at which sample, and to what.
-type Climb = Vec<(u32, f64)>;
+type Climb = Vec<(u32, Exact)>;
 
 /// What every repeat makes.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,10 +43,13 @@ pub(super) struct Placed {
     /// Which of the times after the alarm.
     pub after: usize,
     /// Time since the contact began, s.
+    #[serde(with = "exact")]
     pub since: f64,
     /// Estimate less truth, m.
+    #[serde(with = "exact")]
     pub error: f64,
     pub covers: bool,
+    #[serde(with = "exact")]
     pub width: f64,
 }
 
@@ -76,14 +80,14 @@ impl Outcome {
 
     /// The largest value of a detector without contact; none where no value counts.
     pub(super) fn peak(&self, place: usize) -> Option<f64> {
-        self.free[place].last().map(|(_, value)| *value)
+        self.free[place].last().map(|(_, value)| value.0)
     }
 
     /// The samples at which a detector first exceeds a threshold, without contact and with.
     pub(super) fn firsts(&self, place: usize, threshold: f64) -> [u32; 2] {
         [&self.free, &self.held].map(|climbs| {
             let climb = &climbs[place];
-            climb.get(climb.partition_point(|(_, value)| *value <= threshold)).map_or(NEVER, |(sample, _)| *sample)
+            climb.get(climb.partition_point(|(_, value)| value.0 <= threshold)).map_or(NEVER, |(sample, _)| *sample)
         })
     }
 }
@@ -181,7 +185,7 @@ fn climbs(task: &Task, run: &Run) -> Vec<Climb> {
                 && value > most
             {
                 most = value;
-                climb.push((k as u32, value));
+                climb.push((k as u32, Exact(value)));
             }
         }
         climb

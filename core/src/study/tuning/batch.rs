@@ -44,13 +44,27 @@ impl Batch {
     /// Takes over a tally that was counted elsewhere, unless it says less. Returns whether it fits: one of other thresholds is
     /// left.
     pub fn set(&mut self, tally: Tally) -> bool {
-        let counted = tally.counts.iter().map(Vec::len);
-        let fits = Rule::ALL.iter().map(|rule| rule.levels(&self.levels).len()).eq(counted);
+        let fits = self.fits(&tally);
         if fits && tally.runs > self.tally.runs {
             self.tally = tally;
             self.tidy();
         }
         fits
+    }
+
+    /// Counts in a tally of so many other runs. Returns whether it can be one of them: another is left.
+    pub fn join(&mut self, tally: &Tally, runs: u64) -> bool {
+        let fits = self.fits(tally) && tally.is_of(runs, &self.clock);
+        if fits {
+            self.tally.join(tally);
+            self.tidy();
+        }
+        fits
+    }
+
+    fn fits(&self, tally: &Tally) -> bool {
+        let counted = tally.counts.iter().map(Vec::len);
+        Rule::ALL.iter().map(|rule| rule.levels(&self.levels).len()).eq(counted)
     }
 
     /// What the runs say about one threshold of a rule; while there are fewer of them, what another study had counted.

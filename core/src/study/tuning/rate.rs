@@ -8,6 +8,7 @@ pub const Z: f64 = 1.959_963_984_540_054;
 
 /// How often something happened, with its 95 % interval (Wilson's score interval).
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Share {
     /// Times it happened.
     pub count: u64,

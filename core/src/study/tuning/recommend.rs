@@ -3,10 +3,10 @@
 use super::rate::runs_to_show;
 use super::watch::Rule;
 use super::{Point, Study};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// What is wished for.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Wish {
     /// How alarms are raised.
     #[serde(rename = "method")]

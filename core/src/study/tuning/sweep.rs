@@ -22,6 +22,7 @@ pub struct Sweep {
 
 /// Why a sweep is refused.
 #[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
 pub enum SweepError {
     /// Not a sweep at all.
     #[error("{0:?} is not a sweep: write key=a:b:n, as in filter.length=100:1000:10, or key=v1,v2")]

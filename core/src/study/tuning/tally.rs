@@ -67,6 +67,23 @@ impl Tally {
         }
     }
 
+    /// Whether so many runs of a scenario with this clock can have come to it.
+    #[must_use]
+    pub fn is_of(&self, runs: u64, clock: &Clock) -> bool {
+        self.runs == runs && self.counts.iter().flatten().all(|count| count.is_of(runs, clock))
+    }
+
+    /// Counts in what other runs with the same scenario came to.
+    pub fn join(&mut self, other: &Self) {
+        self.runs += other.runs;
+        self.contact = self.contact.into_iter().chain(other.contact).min();
+        self.counts.resize_with(other.counts.len().max(self.counts.len()), Vec::new);
+        for (counts, others) in self.counts.iter_mut().zip(&other.counts) {
+            counts.resize_with(others.len().max(counts.len()), Count::default);
+            counts.iter_mut().zip(others).for_each(|(count, other)| count.join(other));
+        }
+    }
+
     /// What the runs say about one threshold.
     #[must_use]
     pub fn counted(&self, rule: Rule, level: usize) -> Counted<'_> {
@@ -90,10 +107,7 @@ impl Count {
                 if delay > clock.late {
                     self.late += 1;
                 } else {
-                    match self.found.binary_search_by_key(&delay, |&(delay, _)| delay) {
-                        Ok(place) => self.found[place].1 += 1,
-                        Err(place) => self.found.insert(place, (delay, 1)),
-                    }
+                    self.found_after(delay, 1);
                 }
             }
             _ => {
@@ -103,6 +117,31 @@ impl Count {
         }
     }
 
+    fn join(&mut self, other: &Self) {
+        self.early += other.early;
+        self.early_samples += other.early_samples;
+        self.late += other.late;
+        for &(delay, runs) in &other.found {
+            self.found_after(delay, runs);
+        }
+    }
+
+    fn found_after(&mut self, delay: u32, runs: u32) {
+        match self.found.binary_search_by_key(&delay, |&(delay, _)| delay) {
+            Ok(place) => self.found[place].1 += runs,
+            Err(place) => self.found.insert(place, (delay, runs)),
+        }
+    }
+
+    /// Whether so many runs can have come to it.
+    fn is_of(&self, runs: u64, clock: &Clock) -> bool {
+        let rising = self.found.windows(2).all(|pair| pair[0].0 < pair[1].0);
+        let in_time = self.found.iter().all(|&(delay, _)| delay <= clock.late.min(clock.samples));
+        let alarms = u128::from(self.early) + u128::from(self.late) + u128::from(self.found());
+        let samples = u128::from(self.early) * u128::from(clock.samples);
+        rising && in_time && alarms <= u128::from(runs) && u128::from(self.early_samples) <= samples
+    }
+
     fn found(&self) -> u64 {
         self.found.iter().map(|&(_, runs)| u64::from(runs)).sum()
     }
@@ -110,6 +149,7 @@ impl Count {
 
 /// False alarms of a threshold: of runs without contact.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FalseAlarms {
     /// Runs with an alarm.
     #[serde(flatten)]
@@ -125,6 +165,7 @@ pub struct FalseAlarms {
 
 /// What a threshold does about contacts.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Found {
     /// Alarms before contact, of all runs.
     pub early: Share,
