@@ -1,6 +1,8 @@
 //! How well contacts on three segments are told and placed: many runs of the preset `three-segments` with contacts around the middle of each
 //! segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md.
 
+#![allow(clippy::disallowed_methods, reason = "an example reads its arguments")]
+
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::noise::{Normal, Source};

@@ -81,6 +81,12 @@ pub struct Recording {
 }
 
 impl Recording {
+    /// What was stored with commands that the robot was told, and nothing beside it.
+    #[must_use]
+    pub fn stored(entries: Vec<Entry>) -> Self {
+        Self { entries, truth: None, commanded: true }
+    }
+
     /// The experiment of a plan, simulated.
     ///
     /// ```

@@ -40,7 +40,7 @@ pub fn relative(recording: &ChainRecording, settings: &ChainSettings, segment: u
             tau_lc: Vec3::repeat(f64::NAN),
         }
     });
-    Some(Recording { entries: entries.collect(), truth: None, commanded: true })
+    Some(Recording::stored(entries.collect()))
 }
 
 /// One marker's reading in the frame of another's disk, whole turns kept from reading to reading.
