@@ -206,5 +206,24 @@ fn chain(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, model, chain, experiment, update, study, tuning, detect, log);
+/// Ten seconds of three segments: planned, which follows every shape; then recorded and judged.
+fn chain_run(c: &mut Criterion) {
+    use centrode_core::scenario::ChainPlan;
+    use centrode_core::scenario::preset::find_chain;
+    use centrode_core::study::chain::ChainRun;
+    let mut group = c.benchmark_group("chain run");
+    for name in ["three-segments", "two-contacts"] {
+        let scenario = find_chain(name).and_then(|preset| preset.chain(&[]).ok()).expect("valid");
+        group.bench_function(format!("{name}, planned"), |b| {
+            b.iter(|| ChainPlan::new(black_box(&scenario)).expect("stable").samples());
+        });
+        let plan = ChainPlan::new(&scenario).expect("stable");
+        group.bench_function(format!("{name}, recorded and judged"), |b| {
+            b.iter(|| ChainRun::new(black_box(plan.clone())).judged.events.len());
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, model, chain, chain_run, experiment, update, study, tuning, detect, log);
 criterion_main!(benches);

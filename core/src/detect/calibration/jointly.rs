@@ -75,13 +75,17 @@ pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Q
         row.told(share)
     };
     let (rows, parts) = rows(row, question.beginnings, began, question.parts, &grid);
-    let tried = [Tried { kind: Kind::Plane, rows, parts }];
+    // One segment against another is weighed by all that was heard: what is left out for the place would be left out of one more than of the other.
+    let whole: Vec<Row> = rows.iter().map(|row| row.clone().told(1.0 / share)).collect();
+    let tried = |rows| [Tried { kind: Kind::Plane, rows, parts }];
     let own = question.segment.min(seeing.len() - 1);
     let commands: Vec<_> = seeing[own].moments.iter().map(|moment| moment.command).collect();
     let deviations = linear::errors(&calibrated[own].deviations, &seeing[own].model.belief.deviations);
     let calibration: [[f64; STATES]; 2] = [errors(&calibrated[own], &seeing[own]), deviations];
     let beginnings = question.beginnings.len();
-    weigh(&tried, &Weighed { base, length: question.length, commands: &commands, beginnings, calibration })
+    let weighed = Weighed { base, length: question.length, commands: &commands, beginnings, calibration };
+    let ratio = weigh(&tried(whole), &weighed)?.ratio;
+    Some(Estimate { ratio, ..weigh(&tried(rows), &weighed)? })
 }
 
 /// By how much the variance of what neighbouring trackers say together can exceed what it would be if their noise were independent.
