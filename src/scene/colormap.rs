@@ -17,7 +17,7 @@ const VIRIDIS: [Color; 9] = [
 
 /// The colour of a share from 0 (dark) to 1 (light); clear for NaN.
 ///
-/// A uniform cubic B-spline between [`VIRIDIS`], whose ends are those of the list.
+/// A uniform cubic B-spline between `VIRIDIS`, whose ends are those of the list.
 #[must_use]
 pub fn colormap(share: f64) -> Color {
     if share.is_nan() {

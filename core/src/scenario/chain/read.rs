@@ -33,7 +33,7 @@ const RESTS: &str = "a clamp only while the segments below it rest: what moves u
 const BELOW: &str = "a contact that comes to stand above a clamp that holds by then: below, nothing moves any more";
 
 impl ChainScenario {
-    /// Whether a text is one of these rather than a [`Scenario`].
+    /// Whether a text is one of these rather than a [`Scenario`](crate::scenario::Scenario).
     #[must_use]
     pub fn is_of(toml: &[u8]) -> bool {
         let table = std::str::from_utf8(toml).ok().and_then(|text| text.parse::<Table>().ok());
