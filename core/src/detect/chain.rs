@@ -154,7 +154,8 @@ fn of_methods<'a>(segment: usize, judged: &'a Judged, methods: &'a [Method]) -> 
     })
 }
 
-/// The events of the screw motion deviation: raised where either of its values is above its threshold, cleared once both are low.
+/// The events of the screw motion deviation: raised where either of its values is above its threshold, cleared once both are low. It waits for
+/// `detection.armed_from`, as the paper's detectors do: at low speed noise turns the axis about.
 fn screw_events(
     segment: usize,
     judgements: impl Iterator<Item = (f64, Judgement)>,
@@ -166,7 +167,8 @@ fn screw_events(
     for (time, judgement) in judgements {
         let statistic = Method::FcdConsistent.statistic(&judgement, time, thresholds);
         let angle = judgement.turned;
-        let (Some(far), false) = (statistic.above(smd.distance), angle.is_nan()) else {
+        let waits = time < thresholds.armed_from;
+        let (Some(far), false) = (statistic.above(smd.distance), angle.is_nan() || waits) else {
             latch.unknown();
             continue;
         };

@@ -165,6 +165,8 @@ pub struct EstimateTold {
     pub segment: usize,
     /// Probability of each.
     pub probabilities: Vec<f64>,
+    /// Probability that nothing touches.
+    pub nothing: f64,
     /// Arc length from that segment's base, m: mean.
     pub at: f64,
     /// With a probability of 95 % it is above this …
@@ -204,6 +206,7 @@ fn found_told(found: &ChainContactFound) -> FoundTold {
             time: estimate.time,
             segment: estimate.segment + 1,
             probabilities: estimate.probabilities.clone(),
+            nothing: estimate.nothing,
             at: estimate.place.mean,
             low: estimate.place.low,
             high: estimate.place.high,

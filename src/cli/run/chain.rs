@@ -143,10 +143,19 @@ fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
     for (place, found) in report.found.iter().enumerate() {
         let disks: Vec<String> = found.deviating.iter().map(ToString::to_string).collect();
         let detector = report.detector.unwrap_or_default();
-        let disks = format!("disk{} {}", if disks.len() == 1 { "" } else { "s" }, disks.join(", "));
-        writeln!(out, "found {}     {detector} alarms at {:.3} s; {disks} deviate", place + 1, found.alarm)?;
+        let disks = match disks.as_slice() {
+            [disk] => format!("disk {disk} deviates"),
+            disks => format!("disks {} deviate", disks.join(", ")),
+        };
+        writeln!(out, "found {}     {detector} alarms at {:.3} s; {disks}", place + 1, found.alarm)?;
         for estimate in &found.estimates {
             placed(out, estimate)?;
+        }
+        if found.estimates.is_empty() {
+            writeln!(
+                out,
+                "placed      not: that takes fcd or cusum, trackers on every end disk, and readings up to then of this contact alone"
+            )?;
         }
     }
     if report.found.is_empty() {
@@ -156,7 +165,10 @@ fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
 }
 
 fn placed(out: &mut impl Write, estimate: &EstimateTold) -> io::Result<()> {
-    let EstimateTold { after, segment, probabilities, at, low, high, began, .. } = estimate;
+    let EstimateTold { after, segment, probabilities, nothing, at, low, high, began, .. } = estimate;
+    if *nothing > 0.5 {
+        return writeln!(out, "placed      {after:.2} s after it: a false alarm ({:.0} %)", nothing * 100.0);
+    }
     write!(out, "placed      {after:.2} s after it: segment {segment} ({:.0} %)", probabilities[segment - 1] * 100.0)?;
     write!(out, ", {:.2} mm from its base", at * 1e3)?;
     if low < high {

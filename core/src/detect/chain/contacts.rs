@@ -38,6 +38,8 @@ pub struct ChainEstimate {
     pub segment: usize,
     /// Probability of each segment; of one that was told by its alarm alone, 1.
     pub probabilities: Vec<f64>,
+    /// Probability that nothing touches: that the alarm is a false one.
+    pub nothing: f64,
     /// Arc lengths from that segment's base, m.
     pub place: Place,
     /// Arc lengths from the base of the chain, over all segments, m.
@@ -96,8 +98,11 @@ impl ChainJudged {
                 }
             }
         }
-        for contact in &mut found {
-            let estimates = after.iter().filter_map(|&after| self.estimate(detector, contact, after));
+        // What is read once the next contact has begun says nothing of this one alone.
+        let ends: Vec<f64> = found.iter().skip(1).map(|next| next.alarm).chain([f64::INFINITY]).collect();
+        for (contact, end) in found.iter_mut().zip(ends) {
+            let before = after.iter().filter(|after| contact.alarm + **after < end);
+            let estimates = before.filter_map(|&after| self.estimate(detector, contact, after));
             contact.estimates = estimates.collect();
         }
         found
@@ -107,7 +112,7 @@ impl ChainJudged {
     fn stands(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> bool {
         self.events.iter().any(|event| {
             let of = event.detector == detector && contact.deviating.contains(&event.segment);
-            let raised = event.raised >= contact.alarm && event.raised <= time;
+            let raised = event.raised >= contact.alarm && event.raised < time;
             of && raised && event.cleared.is_none_or(|cleared| cleared > time)
         })
     }
@@ -172,7 +177,7 @@ impl ChainJudged {
         let ratio =
             |estimate: &Option<Estimate>| estimate.as_ref().map_or(f64::NEG_INFINITY, |estimate| estimate.ratio);
         let ratios: Vec<f64> = each.iter().map(ratio).collect();
-        let probabilities = shares(&ratios)?;
+        let (probabilities, nothing) = shares(&ratios)?;
         let segment = (0..probabilities.len()).max_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]))?;
         let posterior: Vec<Vec<[f64; 2]>> = each
             .iter()
@@ -185,7 +190,7 @@ impl ChainJudged {
         let chosen = each[segment].as_ref()?;
         let along = self.along(&posterior, segment, &chosen.place);
         let (place, began) = (chosen.place, Some(chosen.began));
-        Some(ChainEstimate { after, time, segment, probabilities, place, along, began, posterior })
+        Some(ChainEstimate { after, time, segment, probabilities, nothing, place, along, began, posterior })
     }
 
     /// Arc length of a segment's base from that of the chain, m.
@@ -227,6 +232,9 @@ impl ChainJudged {
         after: f64,
         time: f64,
     ) -> Option<ChainEstimate> {
+        if !matches!(detector, ChainMethod::Of(method) if method.places()) {
+            return None;
+        }
         let deviates = |segment: &&usize| {
             self.events
                 .iter()
@@ -237,7 +245,8 @@ impl ChainJudged {
         let place = judged.estimate(&self.relative[segment], contact.alarm, after, Estimator::Eq24)?.location;
         let probabilities = (0..self.segments.len()).map(|k| f64::from(u8::from(k == segment))).collect();
         let along = self.along(&[], segment, &place);
-        Some(ChainEstimate { after, time, segment, probabilities, place, along, began: None, posterior: Vec::new() })
+        let (nothing, began, posterior) = (0.0, None, Vec::new());
+        Some(ChainEstimate { after, time, segment, probabilities, nothing, place, along, began, posterior })
     }
 
     /// The detector by which contacts are told apart where nothing else is said: the first of these that judges.
@@ -310,15 +319,15 @@ fn histories<'a>(
     each.map(|((watched, moments), readings)| History { model: &watched.model, moments, readings }).collect()
 }
 
-/// The probability of each segment, every one as likely beforehand, from the logarithms of the ratios for each.
-fn shares(ratios: &[f64]) -> Option<Vec<f64>> {
-    let most = ratios.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if !most.is_finite() {
+/// The probability of each segment, and of no contact, every one as likely beforehand, from the logarithms of the ratios for each.
+fn shares(ratios: &[f64]) -> Option<(Vec<f64>, f64)> {
+    if ratios.iter().all(|ratio| *ratio == f64::NEG_INFINITY) {
         return None;
     }
+    let most = ratios.iter().copied().fold(0.0, f64::max);
     let weights: Vec<f64> = ratios.iter().map(|ratio| exp(ratio - most)).collect();
-    let total: f64 = weights.iter().sum();
-    Some(weights.into_iter().map(|weight| weight / total).collect())
+    let total: f64 = weights.iter().sum::<f64>() + exp(-most);
+    Some((weights.into_iter().map(|weight| weight / total).collect(), exp(-most) / total))
 }
 
 #[cfg(test)]
@@ -327,9 +336,11 @@ mod tests {
 
     #[test]
     fn probabilities_add_up_and_follow_the_ratios() {
-        let shares_of = shares(&[3.0, 2000.0, 1999.0]).expect("finite");
-        assert!((shares_of.iter().sum::<f64>() - 1.0).abs() < 1e-12);
-        assert!((shares_of[1] / shares_of[2] - std::f64::consts::E).abs() < 1e-12 && shares_of[0] == 0.0);
+        let (each, nothing) = shares(&[3.0, 2000.0, 1999.0]).expect("finite");
+        assert!((each.iter().sum::<f64>() - 1.0).abs() < 1e-12 && nothing == 0.0);
+        assert!((each[1] / each[2] - std::f64::consts::E).abs() < 1e-12 && each[0] == 0.0);
+        let (each, nothing) = shares(&[-9.0, 0.0]).expect("finite");
+        assert!(nothing > 0.49 && (each.iter().sum::<f64>() + nothing - 1.0).abs() < 1e-12);
         assert_eq!(shares(&[f64::NEG_INFINITY; 2]), None);
     }
 }

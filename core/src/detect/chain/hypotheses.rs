@@ -133,7 +133,7 @@ impl Course {
         let relative = if known.is_empty() {
             bends.iter().zip(&self.rods).map(|(bends, rod)| free::pose(rod.length, configuration(bends))).collect()
         } else {
-            Pressed::new(&self.rods, known, &self.largest()).next(&bends)?
+            Pressed::new(&self.rods, known, &self.largest(), known.len()).next(&bends)?
         };
         let nothing = Pose { position: Vec3::zeros(), rotation: Mat3::identity() };
         let base = relative[..segment].iter().fold(nothing, joined);
@@ -165,11 +165,11 @@ impl Course {
         let largest = self.largest();
         for (row, &began) in began.iter().enumerate() {
             let instants = times().map(|share| began + share * (last - began));
-            let without = self.course(known, &largest, &instants)?;
+            let without = self.course(known, &largest, &instants, known.len())?;
             for (column, place) in places().into_iter().enumerate() {
                 let mut contacts = known.to_vec();
                 contacts.push(self.plane(known, segment, place, began)?);
-                let with = self.course(&contacts, &largest, &instants)?;
+                let with = self.course(&contacts, &largest, &instants, known.len())?;
                 for (time, (with, without)) in with.iter().zip(&without).enumerate() {
                     for (tracker, signatures) in signatures.iter_mut().enumerate() {
                         let axes = axes(self.configuration(tracker, instants[time]));
@@ -189,8 +189,8 @@ impl Course {
         let first = (since.max(0.0) as usize + 1).min(self.last);
         let instants: Vec<f64> = (first..=self.last).map(|k| k as f64).collect();
         let largest = self.largest();
-        let with = self.course(known, &largest, &instants)?;
-        let free = self.course(&[], &largest, &instants)?;
+        let with = self.course(known, &largest, &instants, known.len())?;
+        let free = self.course(&[], &largest, &instants, 0)?;
         for (k, (with, free)) in with.iter().zip(&free).enumerate() {
             for (tracker, poses) in corrected.iter_mut().enumerate() {
                 let pose = &mut poses[first + k];
@@ -201,8 +201,14 @@ impl Course {
         Some(corrected)
     }
 
-    /// The end disks, each in the frame of the one below it, at some instants.
-    fn course(&self, contacts: &[Contact], largest: &[Bends], instants: &[f64]) -> Option<Vec<Vec<Pose>>> {
+    /// The end disks, each in the frame of the one below it, at some instants; the first `pushing` contacts may be left.
+    fn course(
+        &self,
+        contacts: &[Contact],
+        largest: &[Bends],
+        instants: &[f64],
+        pushing: usize,
+    ) -> Option<Vec<Vec<Pose>>> {
         if contacts.is_empty() {
             let free = |at: &f64| {
                 let bent = self.at(*at);
@@ -210,7 +216,7 @@ impl Course {
             };
             return Some(instants.iter().map(free).collect());
         }
-        let mut pressed = Pressed::new(&self.rods, contacts, largest);
+        let mut pressed = Pressed::new(&self.rods, contacts, largest, pushing);
         instants.iter().map(|at| pressed.next(&self.at(*at))).collect()
     }
 }

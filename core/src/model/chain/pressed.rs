@@ -17,12 +17,15 @@ pub struct Pressed {
     layout: Layout,
     held: Vec<Held>,
     start: Unknowns,
+    /// The first so many of them are let go once they pull.
+    pushing: usize,
 }
 
 impl Pressed {
-    /// Nothing presses yet. `largest` holds the largest bends there will be (rad). At least one contact.
+    /// Nothing presses yet. `largest` holds the largest bends there will be (rad). At least one contact; the first `pushing` of them are let go for
+    /// good once they would have to pull.
     #[must_use]
-    pub fn new(rods: &[Rod], contacts: &[Contact], largest: &[Bends]) -> Self {
+    pub fn new(rods: &[Rod], contacts: &[Contact], largest: &[Bends], pushing: usize) -> Self {
         let layout = Layout::new(rods, largest, contacts, TERMS);
         let length = Units::of(rods).length;
         let held = contacts.iter().zip(&layout.contacts).map(|(contact, piece)| Held {
@@ -32,12 +35,18 @@ impl Pressed {
         });
         let held: Vec<Held> = held.collect();
         let start = Unknowns { x: DVector::zeros(layout.unknowns), forces: DVector::zeros(held.len()) };
-        Self { rods: rods.to_vec(), layout, held, start }
+        Self { rods: rods.to_vec(), layout, held, start, pushing }
     }
 
     /// The end disk of every segment, each in the frame of the one below it, at the next step of the way. `None` where no equilibrium is found.
     pub fn next(&mut self, bends: &[Bends]) -> Option<Vec<Pose>> {
-        let near = self.solve(bends)?;
+        let mut near = self.solve(bends)?;
+        while let Some(place) = (0..self.pushing).find(|&place| near.at.forces[place] < 0.0) {
+            self.held.remove(place);
+            self.pushing -= 1;
+            self.start = Unknowns { x: near.at.x, forces: near.at.forces.remove_row(place) };
+            near = self.solve(bends)?;
+        }
         let mut below = Pose { position: Vec3::zeros(), rotation: Mat3::identity() };
         let length = Units::of(&self.rods).length;
         let mut disks = Vec::with_capacity(self.rods.len());
@@ -95,7 +104,7 @@ mod tests {
             let start: Vec<_> = steps[0].iter().map(configuration).collect();
             let point = crate::model::chain::free::point(&lengths, &start, segment, at).position;
             let contact = Contact { segment, at, normal, offset: normal.dot(&point) - 1e-5 };
-            let mut pressed = Pressed::new(&rods, &[contact], &steps[2]);
+            let mut pressed = Pressed::new(&rods, &[contact], &steps[2], 0);
             for bends in &steps {
                 let ours = pressed.next(bends).expect("an equilibrium");
                 let bent: Vec<_> = bends.iter().map(configuration).collect();

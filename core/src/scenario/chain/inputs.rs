@@ -90,7 +90,7 @@ pub struct Smd {
 
 impl Default for Smd {
     fn default() -> Self {
-        Self { distance: 0.002_45, angle: std::f64::consts::PI / 36.0 }
+        Self { distance: 0.003_5, angle: std::f64::consts::PI / 36.0 }
     }
 }
 

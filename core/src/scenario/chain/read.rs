@@ -29,6 +29,10 @@ const KIND: &str = "\"plane\" or \"clamp\"";
 const EITHER: &str = "a disk or an arc length (at), not both and not neither";
 const WHEN: &str = "a time, a bend of its segment, or, of a plane, a normal with an offset: one of these";
 const REACHED: &str = "a bend that the motion of its segment passes";
+const IDLE: &str = "an offset with a normal alone, a tilt with a time or a bend";
+const TWICE: &str = "a place on the backbone that no other contact has";
+const ESTIMATION: &str =
+    "not with [[segment]]: places are those of planes, by all readings (estimation.beginnings alone holds)";
 const RESTS: &str = "a clamp only while the segments below it rest: what moves under a clamp changes the shape below it, which is not modelled";
 const BELOW: &str = "a contact that comes to stand above a clamp that holds by then: below, nothing moves any more";
 
@@ -55,6 +59,11 @@ impl ChainScenario {
     fn read(top: &Group, table: &Table) -> Result<Self, ChainError> {
         if let Some(alone) = ALONE.iter().find(|key| table.contains_key(**key)) {
             return Err(top.refuse(alone, Quantity::Word, Value::Other("…".into()), Allowed::Need(INSTEAD)));
+        }
+        for key in ["plants", "estimators", "kind"] {
+            if let Some(given) = table.get("estimation").and_then(|estimation| estimation.get(key)) {
+                return Err(top.refuse_at(["estimation", key], given, Allowed::Need(ESTIMATION)));
+            }
         }
         let end = top.number("end", Quantity::Time, between(0.0, MAX_TIME), Some(10.0))?;
         let mut common = table.clone();
@@ -233,6 +242,10 @@ fn stands(group: &Group, segment: &ChainSegment) -> Result<Stands, ChainError> {
             None => group.missing("time", WHEN),
         });
     }
+    let idle = if given[2] { "tilt" } else { "offset" };
+    if group.has(idle) {
+        return Err(group.refuse_as_written(idle, Quantity::Word, Allowed::Need(IDLE)));
+    }
     if given[2] {
         let normal = group.vector("normal", NORMAL)?;
         if (normal.norm() - 1.0).abs() > UNIT || !normal.norm().is_finite() {
@@ -284,6 +297,11 @@ fn check_clamp(
     {
         return Err(group.refuse_as_written("kind", Quantity::Word, Allowed::Need(RESTS)));
     }
+    let twice = |other: &&ChainContact| (other.segment, other.at) == (contact.segment, contact.at);
+    if contacts.iter().filter(twice).count() > 1 {
+        let key = if group.has("disk") { "disk" } else { "at" };
+        return Err(group.refuse_as_written(key, Quantity::Word, Allowed::Need(TWICE)));
+    }
     let (Stands::Clamped { time } | Stands::From { time, .. }) = contact.stands else { return Ok(()) };
     let below = |clamp: &&ChainContact| match clamp.stands {
         Stands::Clamped { time: held } => {
@@ -310,7 +328,8 @@ impl Group<'_> {
                     let Refused { quantity, value, allowed, .. } = *refused;
                     self.refuse(&key, quantity, value, allowed)
                 }
-                _ => whole(ScenarioError::Value(refused)),
+                Some(key) => whole(ScenarioError::Value(Box::new(Refused { key, ..*refused }))),
+                None => whole(ScenarioError::Value(refused)),
             },
             ScenarioError::UnknownKey { key, known } => match renamed(&key) {
                 Some(key) => self.at(&key, ScenarioError::UnknownKey { key: self.key(&key), known }),
