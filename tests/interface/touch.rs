@@ -292,7 +292,8 @@ fn who_wants_less_motion_sees_nothing_move_by_itself() {
     };
     slide(&mut page, SHEET, 2.0);
     wait(&mut page, "the sheet");
-    for button in ["Controls", "Contact", "ξ2 (centrode) on", "Help"] {
+    // The group is folded, and unfolded again.
+    for button in ["Controls", "Contact", "Contact", "ξ2 (centrode) on", "Help"] {
         page.get_by_label(button).click();
         wait(&mut page, button);
     }

@@ -94,13 +94,12 @@ fn combo(ui: &mut Ui, rect: Rect, label: &str, title: &str, theme: &Theme) -> Re
     // A finger needs more than the eye.
     let shown = rect.shrink2(vec2(0.0, (0.5 * (rect.height() - BOX)).max(0.0)));
     ui.painter().rect(shown, 7.0, ground, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
-    ui.painter_at(rect.with_max_x(rect.right() - 22.0)).text(
-        rect.left_center() + vec2(10.0, 0.0),
-        Align2::LEFT_CENTER,
-        title,
-        fonts::strong(13.0),
-        theme.ink,
-    );
+    // A long name is smaller rather than cut.
+    let room = rect.width() - 32.0;
+    let size = (13.0 * room / text::width(ui, title, fonts::strong(13.0))).clamp(10.5, 13.0);
+    let clip = ui.painter_at(rect.with_max_x(rect.right() - 22.0));
+    let at = rect.left_center() + vec2(10.0, 0.0);
+    clip.text(at, Align2::LEFT_CENTER, title, fonts::strong(size), theme.ink);
     icon::chevron(ui.painter(), rect.right_center() - vec2(14.0, 0.0), 1.0, theme.dim);
     response
 }
