@@ -15,6 +15,8 @@ use std::sync::Arc;
 
 /// A stretch shorter than this share of the whole time is none.
 const SHORTEST: f64 = 1e-9;
+/// Where the chain buckles, the path ends this share of the whole time before, or ten times as much.
+const BACK: f64 = 1e-9;
 /// A force below −this (EI/L²) pulls, a gap below −that (of the length) is passed.
 const PULLS: f64 = 1e-8;
 const PASSED: f64 = 1e-11;
@@ -22,6 +24,8 @@ const PASSED: f64 = 1e-11;
 const TERMS: [usize; 7] = [6, 8, 10, 13, 17, 22, 30];
 /// The highest of them may bend a piece by so much, rad. What the tip has of it is less than a thousandth.
 const TAIL: f64 = 1e-5;
+/// A margin below this is looked at closely.
+const DOUBTFUL: f64 = 0.1;
 /// Looks for a sign between two nodes.
 const LOOKS: usize = 8;
 /// So many events at one instant are too many to be followed.
@@ -294,13 +298,21 @@ impl Follower<'_> {
         let from = self.path.end;
         let still =
             [0.5, 1.0].iter().all(|share| self.course.bends(from + share * (stop - from)) == self.course.bends(from));
-        let mut to = stop;
+        let (mut to, mut back, mut buckles) = (stop, BACK * self.whole, None);
         loop {
             let cut = self.cut(TERMS[self.terms]);
             match self.solve(&cut, from, to, still) {
                 Err(Short::Coarse) => self.terms += 1,
-                Ok(solved) => return self.take(&cut, solved, to),
-                Err(Short::Buckles(good, bad)) if good > from => to = self.buckling(&cut, good, bad).max(from),
+                Ok(solved) => {
+                    let went = self.take(&cut, solved, to);
+                    // Unless something else happened before.
+                    return if buckles == Some(self.path.end) { self.give_up(What::Buckled) } else { went };
+                }
+                Err(Short::Buckles(good, bad)) if good > from => {
+                    // A little before: what is stable from one start may not be from another.
+                    to = (self.buckling(&cut, good, bad) - back).max(good);
+                    (back, buckles) = (10.0 * back, Some(to));
+                }
                 Err(Short::Buckles(_, bad)) if bad - from > SHORTEST * self.whole => to = 0.5 * (from + bad),
                 Err(Short::Buckles(..)) => return self.give_up(What::Buckled),
                 Err(Short::Rough) if to - from > SHORTEST * self.whole => to = from + 0.5 * (to - from),
@@ -324,7 +336,11 @@ impl Follower<'_> {
             .filter_map(|place| cut.standing.iter().position(|other| other == place))
             .map(|place| cut.planes[place])
             .collect();
-        let near = nearby(&cut.layout, &flat, &held, start)?;
+        let mut near = nearby(&cut.layout, &flat, &held, start)?;
+        // Second derivatives are those of a small step before: near buckling, its own are wanted.
+        if !is_stable(&near.hessian, &near.gradients, DOUBTFUL) {
+            near = nearby(&cut.layout, &flat, &held, near.at)?;
+        }
         let gap = |(place, plane): (&usize, &Held)| {
             let end = near.shape.ends[plane.piece].position;
             if self.active.contains(place) { 0.0 } else { plane.offset - plane.normal.dot(&end) }
