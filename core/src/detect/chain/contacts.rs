@@ -1,7 +1,7 @@
 //! Which segments carry contacts, where on the backbone, and since when.
 
 use super::hypotheses::{Course, KnownContact};
-use super::{ChainJudged, ChainMethod};
+use super::{ChainEvent, ChainJudged, ChainMethod};
 use crate::detect::calibration::course::{Moment, Planner};
 use crate::detect::calibration::jointly::{self, Question};
 use crate::detect::calibration::marginal::{Estimate, History, Place};
@@ -73,7 +73,7 @@ impl ChainJudged {
         let mut known: Vec<KnownContact> = Vec::new();
         for event in self.events.iter().filter(|event| event.detector == detector) {
             let (segment, alarm) = (event.segment, event.raised);
-            let standing = found.last().is_some_and(|last| self.stands(detector, last, alarm));
+            let standing = found.last().is_some_and(|last| self.stands(detector, last, event));
             let same = standing
                 && found.last().is_some_and(|last| {
                     last.deviating.iter().any(|other| segment <= *other)
@@ -108,12 +108,12 @@ impl ChainJudged {
         found
     }
 
-    /// Whether an alarm of a contact still stands at a time (s).
-    fn stands(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> bool {
+    /// Whether an alarm of a contact stands as another is raised.
+    fn stands(&self, detector: ChainMethod, contact: &ChainContactFound, now: &ChainEvent) -> bool {
         self.events.iter().any(|event| {
-            let of = event.detector == detector && contact.deviating.contains(&event.segment);
-            let raised = event.raised >= contact.alarm && event.raised < time;
-            of && raised && event.cleared.is_none_or(|cleared| cleared > time)
+            let of = event.detector == detector && contact.deviating.contains(&event.segment) && event != now;
+            let raised = event.raised >= contact.alarm && event.raised <= now.raised;
+            of && raised && event.cleared.is_none_or(|cleared| cleared > now.raised)
         })
     }
 
