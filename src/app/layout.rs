@@ -231,7 +231,11 @@ impl Layout {
             .with_sheet(sheet::beside(rest.0, sheet), sheet)
     }
 
+    /// A frame with room for the one or the other has no sheet, unless that is drawn up.
     fn with_sheet(self, (view, handle): (Option<Rect>, Handle), sheet: Sheet) -> Self {
+        if view.is_none() && sheet.at <= 1.0 {
+            return self;
+        }
         let place = handle.split().1;
         let (controls, tabbed) = if sheet.controls { (Some(place), None) } else { (None, Some(place)) };
         Self { view, controls, tabbed, sheet: true, handle: Some(handle), ..self }
@@ -434,7 +438,10 @@ mod tests {
                 let small = height < 240.0;
                 assert_eq!(layout.title, None, "{embed:?}");
                 if embed == Embed::All {
-                    assert!(layout.views.is_some() && layout.view.is_some() && layout.transport.is_some());
+                    assert!(
+                        layout.views.is_some() && layout.view.is_some() && layout.transport.is_some(),
+                        "{width}×{height}: {layout:?}"
+                    );
                     continue;
                 }
                 assert!(layout.controls.is_none() && layout.tabbed.is_none() && layout.plane.is_none());

@@ -332,7 +332,7 @@ mod tests {
                 ("edge", theme.edge),
                 ("accent", theme.accent),
             ];
-            for ground in [theme.surface, theme.panel, theme.raised] {
+            for ground in [theme.panel, theme.raised] {
                 for (name, line) in lines {
                     let found = contrast(line, ground);
                     assert!(found >= 3.0, "{name} in {:?} on {ground:?}: {found}", theme.shade);
