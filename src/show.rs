@@ -2,6 +2,7 @@
 
 pub mod band;
 mod beam;
+pub mod chain;
 pub mod ink;
 mod load;
 mod loci;
@@ -62,10 +63,10 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
         // Of the model, whose length may be another.
         let free = run.plan.segment().arc(configuration);
         let share = free.length / length;
-        robot::ghost(&mut scene, palette.model, &sizes, |s| scene_pose(&free.pose(share * f64::from(s))));
+        robot::ghost(&mut scene, palette.model, &sizes, 0.0, |s| scene_pose(&free.pose(share * f64::from(s))));
     }
     if let Some(frozen) = obstacle::frozen(run, place).filter(|_| options.frozen) {
-        robot::ghost(&mut scene, palette.constrained, &sizes, |s| scene_pose(&frozen.pose(f64::from(s))));
+        robot::ghost(&mut scene, palette.constrained, &sizes, 0.0, |s| scene_pose(&frozen.pose(f64::from(s))));
     }
     let signs = Signs { run, trace, truth, palette, time, lift: 1.5 * sizes.disk };
     signs.loci(&mut scene);
@@ -130,7 +131,11 @@ const ROOM: [Vec2; 2] = [Vec2::new(-0.76, -0.73), Vec2::new(0.90, 0.93)];
 const DESIGN_LENGTH: f32 = 0.030;
 
 fn floor(run: &Run, palette: &Palette, sizes: &Proportions) -> Ground {
-    let scale = run.plan.segment().length as f32 / DESIGN_LENGTH;
+    ground(palette, sizes, run.plan.segment().length as f32 / DESIGN_LENGTH)
+}
+
+/// The floor under a robot so many times as large as that for which it was chosen.
+fn ground(palette: &Palette, sizes: &Proportions, scale: f32) -> Ground {
     Ground {
         center: Vec3::new(0.004 * scale, 0.0, sizes.floor),
         radius: 0.062 * scale,

@@ -41,6 +41,8 @@ pub struct Palette {
     pub steel: Color,
     /// The primary backbone, a shade apart from the others.
     pub steel_primary: Color,
+    /// Backbones of segments in series, from the base and over again: as bright as they are thin, and of three tempers.
+    pub steels: [Color; 3],
     /// Disks.
     pub disk: Color,
     /// The orientation mark on a disk.
@@ -76,6 +78,7 @@ impl Palette {
         choice: Color::hex(0x5A47D1),
         steel: Color::hex(0xD5DBE2),
         steel_primary: Color::hex(0xF0F2F5),
+        steels: [Color::hex(0x7D8DA0), Color::hex(0xD5DBE2), Color::hex(0xD9B978)],
         disk: Color::hex(0xAEBBC8),
         mark: Color::hex(0x39424E),
         stone: Color::hex(0x69635A),
@@ -100,6 +103,7 @@ impl Palette {
         choice: Color::hex(0xA394FF),
         steel: Color::hex(0xD3DAE2),
         steel_primary: Color::hex(0xF0F3F6),
+        steels: [Color::hex(0x74879C), Color::hex(0xD3DAE2), Color::hex(0xE0BF7C)],
         disk: Color::hex(0x93A6B8),
         mark: Color::hex(0xE8EDF2),
         stone: Color::hex(0x8C8477),

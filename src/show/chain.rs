@@ -1,0 +1,124 @@
+//! A run of several segments at one instant, as a scene.
+
+mod bent;
+mod robot;
+
+use super::{ASPECT, DESIGN_LENGTH, PITCH, Proportions, ROOM, YAW, ground, scene_pose};
+use crate::scene::palette::Palette;
+use crate::scene::{Camera, Pose, Scene};
+use bent::Bent;
+use centrode_core::detect::chain::ChainEstimate;
+use centrode_core::model::Configuration;
+use centrode_core::model::chain::{free, path};
+use centrode_core::study::chain::ChainRun;
+use glam::Vec3;
+
+/// How a run of several segments is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChainOptions<'a> {
+    /// Colours.
+    pub palette: Palette,
+    /// How far the ring around a fresh detection has run, 0..1; 0 shows none.
+    pub pulse: f32,
+    /// The segment, from 0, that is drawn as chosen.
+    pub chosen: usize,
+    /// Where contacts are placed, one for each that was found, as far as that is known.
+    pub placed: &'a [&'a ChainEstimate],
+}
+
+/// One instant of a run.
+struct Instant<'a> {
+    palette: &'a Palette,
+    /// Of each segment, from the base.
+    sizes: Vec<Proportions>,
+    /// Angle of each segment's first secondary backbone on the pitch circle, rad.
+    offsets: Vec<f32>,
+    /// What each segment is told.
+    told: Vec<Configuration>,
+    /// The true backbone.
+    bent: Bent,
+    /// What presses and how hard: truth.
+    truth: path::Instant,
+}
+
+impl<'a> Instant<'a> {
+    fn new(run: &ChainRun, time: f64, palette: &'a Palette) -> Self {
+        let plan = &run.plan;
+        let segments = &plan.scenario().segments;
+        let lengths = segments.iter().map(|segment| segment.alone.true_robot().segment().length);
+        let sizes = segments.iter().zip(lengths);
+        let sizes = sizes.map(|(segment, length)| Proportions::of_robot(&segment.alone.scenario().robot, length));
+        // Where the chain buckles, the picture stops.
+        let time = time.clamp(0.0, plan.path().end());
+        let bends = plan.bends(time);
+        let bent = Bent::new(&plan.path().backbone(time, &bends, bent::PARTS));
+        Self {
+            palette,
+            sizes: sizes.collect(),
+            offsets: segments.iter().map(|segment| segment.joint_offset as f32).collect(),
+            told: (0..segments.len()).map(|k| plan.command(k, time).0).collect(),
+            bent,
+            truth: plan.path().at(time, &bends),
+        }
+    }
+
+    /// The end disk of a segment.
+    fn end(&self, segment: usize) -> Pose {
+        self.bent.pose(segment, 1.0)
+    }
+}
+
+/// The scene of `run` at `time` (s).
+#[must_use]
+pub fn view(run: &ChainRun, time: f64, options: &ChainOptions<'_>) -> Scene {
+    let palette = &options.palette;
+    let instant = Instant::new(run, time, palette);
+    let scale = 0.7 * nominal_lengths(run).sum::<f64>() as f32 / DESIGN_LENGTH;
+    let mut scene = Scene { ground: Some(ground(palette, &instant.sizes[0], scale)), ..Scene::default() };
+    robot::robot(&mut scene, &instant);
+    if !instant.truth.active.is_empty() {
+        let lengths: Vec<f64> = nominal_lengths(run).collect();
+        robot::ghost(&mut scene, &instant, &Bent::free(&lengths, &instant.told));
+    }
+    robot::names(&mut scene, &instant, options.chosen);
+    scene
+}
+
+/// Instants of the whole motion at which the camera looks at the robot.
+const LOOKS: usize = 24;
+
+/// The view in which a run opens: the robot as large as its whole motion allows, from the side to which it leans and a little from above.
+/// It does not depend on contacts, so that it keeps still while they are moved.
+#[must_use]
+pub fn home_camera(run: &ChainRun) -> Camera {
+    let scenario = run.plan.scenario();
+    let sizes: Vec<Proportions> = scenario
+        .segments
+        .iter()
+        .map(|segment| Proportions::of_robot(&segment.alone.scenario().robot, segment.alone.segment().length))
+        .collect();
+    let mut points = Vec::new();
+    let mut leans = Vec3::ZERO;
+    for look in 0..=LOOKS {
+        let ends = free_ends(run, scenario.common().motion.end * look as f64 / LOOKS as f64);
+        leans += ends.last().map_or(Vec3::ZERO, |tip| tip.position);
+        points.extend(sizes.iter().zip(&ends).flat_map(|(sizes, end)| sizes.outline(end).collect::<Vec<_>>()));
+    }
+    Camera::framing(&points, YAW + heading(leans), PITCH, ASPECT, ROOM)
+}
+
+/// The direction of a vector over the floor, from x toward y, rad; 0 for one that points up.
+fn heading(along: Vec3) -> f32 {
+    if along.truncate().length() > 1e-3 * along.length() { along.y.atan2(along.x) } else { 0.0 }
+}
+
+fn nominal_lengths(run: &ChainRun) -> impl Iterator<Item = f64> {
+    run.plan.scenario().segments.iter().map(|segment| segment.alone.segment().length)
+}
+
+/// The end disks of the model that nothing touches, from the base.
+fn free_ends(run: &ChainRun, time: f64) -> Vec<Pose> {
+    let lengths: Vec<f64> = nominal_lengths(run).collect();
+    let told: Vec<Configuration> = (0..lengths.len()).map(|k| run.plan.command(k, time).0).collect();
+    free(&lengths, &told).iter().map(|disk| scene_pose(&disk.pose)).collect()
+}
