@@ -5,7 +5,7 @@
 
 mod axis;
 mod between;
-mod frame;
+pub mod frame;
 mod marks;
 mod panels;
 mod threshold;
@@ -78,10 +78,13 @@ type Key = (u64, Option<u64>, bool);
 
 /// A touch may scrub, or scroll the page.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-enum Touch {
+pub enum Touch {
+    /// It has not moved yet.
     #[default]
     Undecided,
+    /// It moves along the time.
     Scrubs,
+    /// It moves up or down.
     Scrolls,
 }
 
@@ -254,7 +257,7 @@ fn least(count: usize) -> Vec<f32> {
 }
 
 /// Places of so many plots: a row, or a column in which the first is highest.
-fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
+pub fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
     let gaps = count.saturating_sub(1) as f32 * GAP;
     if beside {
         let width = (area.width() - gaps) / count as f32;
