@@ -18,12 +18,21 @@ pub struct LinkArgs {
     /// Scenario file (TOML), as a flag.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["file", "preset", "link"])]
     scenario: Option<PathBuf>,
-    /// What the page shows: robot, figure-3, figure-4, figure-6, figure-7, figure-8, table2, map or tuning.
+    /// What the page shows: robot, figure-3, figure-4, figure-6, figure-7, figure-8, table2, map, tuning or detectors.
     #[arg(long, value_name = "VIEW")]
     view: Option<String>,
     /// Where playback stands, in s; without it, it plays.
     #[arg(long, value_name = "SECONDS", allow_hyphen_values = true)]
     t: Option<String>,
+    /// Step at which the page's tour is open, from 1; all else in the link is what the page goes back to after it.
+    #[arg(long, value_name = "STEP", allow_hyphen_values = true, conflicts_with = "challenge")]
+    tour: Option<String>,
+    /// Challenge that is open, the same way: disk-1, half, blind, clamp, disk-3 or best.
+    #[arg(long, value_name = "CHALLENGE")]
+    challenge: Option<String>,
+    /// Theme of the page: dark, light, projector or system; without it, that of whoever opens the link.
+    #[arg(long, value_name = "THEME")]
+    theme: Option<String>,
     /// Address of the page, as in `https://example.org/centrode/`; its query stays, what stands behind # is replaced.
     #[arg(value_name = "ADDRESS")]
     address: String,
@@ -38,11 +47,7 @@ impl LinkArgs {
             None => self.source.scenario()?,
         };
         let mut page = known.as_ref().map_or_else(Page::default, |link| link.page.clone());
-        for (key, flag, text) in [("view", "--view", &self.view), ("t", "--t", &self.t)] {
-            if let Some(text) = text {
-                page.enter(key, text).map_err(|error| Failure::Input(format!("{flag}: {error}")))?;
-            }
-        }
+        self.enter(&mut page)?;
         let preset = match (&self.source.preset, &known) {
             (Some(name), _) => preset::find(name).ok(),
             (None, Some(link)) => Some(link.preset()),
@@ -55,5 +60,23 @@ impl LinkArgs {
         let link = link.map_err(|error| Failure::Input(error.to_string()))?;
         let text = link.at(&self.address).map_err(|error| Failure::Input(error.to_string()))?;
         Ok(writeln!(out, "{text}")?)
+    }
+
+    /// Sets what the flags say of the page.
+    fn enter(&self, page: &mut Page) -> Result<(), Failure> {
+        if self.tour.is_some() || self.challenge.is_some() {
+            // One lesson is open at a time, and a flag comes after what a link says.
+            (page.tour, page.challenge) = (None, None);
+        }
+        let flags = [
+            ("view", &self.view),
+            ("t", &self.t),
+            ("tour", &self.tour),
+            ("challenge", &self.challenge),
+            ("theme", &self.theme),
+        ];
+        flags.into_iter().filter_map(|(key, text)| Some((key, text.as_ref()?))).try_for_each(|(key, text)| {
+            page.enter(key, text).map_err(|error| Failure::Input(format!("--{key}: {error}")))
+        })
     }
 }
