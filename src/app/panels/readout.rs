@@ -16,7 +16,7 @@ use centrode_core::run::Run;
 /// Below this height there is less space around the words, points.
 const LOW: f32 = 290.0;
 /// The least height of a row, points.
-const LEAST: f32 = 15.5;
+const LEAST: f32 = 14.5;
 
 /// Shows the readout of a run, simulated or of a log, and what the calibration filter's alarm says at a time (s).
 pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, time): (&Placed, f64)) {
@@ -35,11 +35,11 @@ pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, tim
                 [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.alarm)]
             {
                 if let Some(said) = said {
-                    ui.add_space(5.0);
+                    ui.add_space(if low { 4.0 } else { 5.0 });
                     symbol::label(ui, text::rich(&said, 12.5, color), false);
                 }
             }
-            ui.add_space(if low { 5.0 } else { 8.0 });
+            ui.add_space(if low { 4.0 } else { 8.0 });
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);
