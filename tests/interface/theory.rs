@@ -1,6 +1,6 @@
 //! Symbols are named where they stand, and lead to their place in the theory.
 
-use crate::support::{DESK, PHONE, Page, app, page_of, texts};
+use crate::support::{DESK, PHONE, Page, app, finish, page_of, texts};
 use centrode::app::link::Effect;
 use centrode::app::stages::stage::Stage;
 use centrode_core::symbols::{SYMBOLS, find, spans};
@@ -207,9 +207,9 @@ fn press(page: &mut Page, pos: Pos2) {
     page.run_steps(2);
 }
 
-/// The middle of every symbol that is painted in sight, and which it is; not of those that stand on a control.
-fn written(page: &Page) -> Vec<(&'static str, Pos2)> {
-    fn all(shape: &Shape, clip: Rect, found: &mut Vec<(&'static str, Pos2)>) {
+/// Every symbol that is painted in sight: which it is, its middle, and the text it is in; not those that stand on a control.
+fn written(page: &Page) -> Vec<(&'static str, Pos2, String)> {
+    fn all(shape: &Shape, clip: Rect, found: &mut Vec<(&'static str, Pos2, String)>) {
         match shape {
             Shape::Vec(shapes) => shapes.iter().for_each(|shape| all(shape, clip, found)),
             Shape::Text(text) if text.angle == 0.0 => {
@@ -221,7 +221,7 @@ fn written(page: &Page) -> Vec<(&'static str, Pos2)> {
                     let (from, to) = (end(at.start, true), end(at.end, false));
                     let middle = from.union(to).center();
                     if from.top() == to.top() && clip.contains(middle) {
-                        found.push((symbol.id, middle));
+                        found.push((symbol.id, middle, text.galley.text().to_owned()));
                     }
                 }
             }
@@ -236,7 +236,7 @@ fn written(page: &Page) -> Vec<(&'static str, Pos2)> {
             .flat_map(|role| page.query_all_by_role(role).map(|node| node.rect()).collect::<Vec<_>>())
             .filter(|rect| rect.height() < 60.0)
             .collect();
-    found.retain(|(_, at)| !controls.iter().any(|control| control.contains(*at)));
+    found.retain(|(_, at, _)| !controls.iter().any(|control| control.contains(*at)));
     found
 }
 
@@ -245,17 +245,19 @@ fn written(page: &Page) -> Vec<(&'static str, Pos2)> {
 fn a_click_on_any_symbol_in_sight_opens_its_place_and_does_nothing_else() {
     for stage in Stage::ALL {
         let mut page = page_of(DESK);
-        page.state_mut().as_mut().expect("built").go(&format!("preset=bench&view={}&t=7", stage.key()));
+        let link = format!("preset=bench&view={}&t=7&repeats=4&compare=fcd,jfd", stage.key());
+        page.state_mut().as_mut().expect("built").go(&link);
         page.run_steps(3);
-        // What a study finds is not waited for.
+        // What is found may move what is said.
+        finish(&mut page);
         let symbols = written(&page);
         assert!(symbols.len() >= 3, "{stage:?}: {symbols:?}");
         opened(&mut page);
-        for (id, at) in symbols {
+        for (id, at, text) in symbols {
             let before = app(&page).state().clone();
             press(&mut page, at);
-            assert_eq!(opened(&mut page), [format!("theory.html#sym-{id}")], "{stage:?}: {id} at {at}");
-            assert_eq!(app(&page).state(), &before, "{stage:?}: {id} at {at}");
+            assert_eq!(opened(&mut page), [format!("theory.html#sym-{id}")], "{stage:?}: {id} at {at} in {text:?}");
+            assert_eq!(app(&page).state(), &before, "{stage:?}: {id} at {at} in {text:?}");
         }
     }
 }
