@@ -178,7 +178,7 @@ impl Layout {
         let plots = rest.bottom((page.height() * 0.25).clamp(180.0, 330.0));
         let transport = rest.bottom(FLAT);
         let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
-        let readout = side.bottom((side.0.height() * 0.48).clamp(254.0, 300.0).min(side.0.height() - 130.0));
+        let readout = side.bottom((side.0.height() * 0.48).clamp(262.0, 300.0).min(side.0.height() - 130.0));
         Self {
             controls: Some(controls),
             plane: Some(side.0),

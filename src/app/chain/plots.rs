@@ -217,7 +217,9 @@ fn in_place(
                 format!("{}{behind}", measure.symbol)
             };
             let long = match one.by_segment {
-                true => format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol),
+                true => {
+                    format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol)
+                }
                 false => format!("{} {short}", measure.name),
             };
             let label = format!("Plot of segment {}: {} over time", one.segment + 1, measure.name.to_lowercase());
