@@ -16,7 +16,8 @@ fn what_is_wrong_is_named_with_line_column_and_disk() {
         (format!("{good}{}", row("0.2", "one")), &["disk 2", "line 4, column 11 (y_2)", "\"one\""][..]),
         (good.replacen("x_2", "x_5", 1), &["line 1, column 10 (x_5)", "disk 5", "3 segments"]),
         (good.replacen("x_2", "a", 1), &["y_2", "without x", "disk 2"]),
-        (good.replace("_3", ""), &["column 18 (x)", "does not say which disk"]),
+        (good.replace("_3", ""), &["disk 3 has no readings", "there are 2"]),
+        (format!("{}\n", head.replace("_1", "")), &["column 2 (x)", "does not say which disk"]),
         (good.replacen("theta_l_2", "theta_l", 1), &["no command of segment 2", "theta_l_2"]),
         (
             good.replacen("azimuth_3", "a", 1).replacen("elevation_3", "b", 1).replacen("roll_3", "c", 1),

@@ -1,6 +1,7 @@
 //! Logs of several trackers: written by the command, read back, and read as rigs and simulators write them.
 
 use crate::cli::{centrode, json};
+use crate::log_formats::json_mcap;
 use crate::logs::Scratch;
 use centrode_core::model::Vec3;
 use centrode_core::model::chain::joints::joints;
@@ -77,19 +78,19 @@ fn analyzed(args: &[&str]) -> Value {
     json(&[&["analyze", "--preset", "two-contacts", "--json"], args].concat())
 }
 
-/// That both contacts are told and placed as in the simulated run, but for rounding.
+/// That both contacts are told and placed as in the simulated run: within a reading of the tracker, and a sixth of what its intervals allow.
 #[track_caller]
 fn same_contacts(report: &Value, name: &str) {
     let (found, run) = (report["found"].as_array().expect("found"), RUN["found"].as_array().expect("found"));
     assert_eq!(found.len(), run.len(), "{name}: {report}");
     let near = |a: &Value, b: &Value, most: f64| (a.as_f64().expect(name) - b.as_f64().expect(name)).abs() < most;
     for (ours, theirs) in found.iter().zip(run) {
-        assert!(near(&ours["alarm"], &theirs["alarm"], 1e-9), "{name}: {ours}");
+        assert!(near(&ours["alarm"], &theirs["alarm"], 0.0101), "{name}: {ours}");
         let last = |of: &Value| of["estimates"].as_array().and_then(|all| all.last().cloned()).expect("placed");
         let (ours, theirs) = (last(ours), last(theirs));
         assert_eq!(ours["segment"], theirs["segment"], "{name}");
         for key in ["at", "low", "high", "along"] {
-            assert!(near(&ours[key], &theirs[key], 2e-6), "{name}: {key} {} {}", ours[key], theirs[key]);
+            assert!(near(&ours[key], &theirs[key], 5e-5), "{name}: {key} {} {}", ours[key], theirs[key]);
         }
     }
 }
@@ -306,6 +307,42 @@ fn trajectories_are_a_file_for_each_disk() {
         let message = refused(&[&["analyze"], args, &preset].concat());
         assert!(parts.iter().all(|part| message.contains(part)), "{message}");
     }
+}
+
+#[test]
+fn an_mcap_file_has_a_topic_for_each_disk() {
+    let mut messages: Vec<(&str, &str, String)> = Vec::new();
+    let topics = ["/rig/disk3/pose", "/rig/disk1/pose", "/rig/disk2/pose"];
+    // A stamp of nought is none.
+    for at in instants().skip(1) {
+        let nanoseconds = (RIG.times[at] * 1e9).round() as u64;
+        let (sec, nanosec) = (nanoseconds / 1_000_000_000, nanoseconds % 1_000_000_000);
+        let header = format!(r#""header":{{"stamp":{{"sec":{sec},"nanosec":{nanosec}}}}}"#);
+        for (topic, disk) in topics.iter().zip([2, 0, 1]) {
+            let [x, y, z] = ["x", "y", "z"].map(|name| value(name, disk, at));
+            let [qw, qx, qy, qz] = QUATERNION.map(|name| value(name, disk, at));
+            let pose = format!(
+                r#"{{{header},"pose":{{"position":{{"x":{x},"y":{y},"z":{z}}},"orientation":{{"x":{qx},"y":{qy},"z":{qz},"w":{qw}}}}}}}"#
+            );
+            messages.push((topic, "geometry_msgs/msg/PoseStamped", pose));
+        }
+        let each = |name: &str| (0..3).map(|disk| value(name, disk, at).to_string()).collect::<Vec<_>>().join(",");
+        let joints = format!(
+            r#"{{{header},"name":["bend_1","bend_2","bend_3","delta_1","delta_2","delta_3"],"position":[{},{}]}}"#,
+            each("bend"),
+            each("delta")
+        );
+        messages.push(("/joint_states", "sensor_msgs/msg/JointState", joints));
+    }
+    let log = Scratch::new("rig.mcap", &json_mcap(&messages));
+    let report = analyzed(&[log.path()]);
+    same_contacts(&report, "topics");
+    let notes = report["log"]["report"]["notes"].to_string();
+    assert!(notes.contains("/rig/disk1/pose, /rig/disk2/pose, /rig/disk3/pose"), "{notes}");
+    let named = ["--topic", topics[1], "--topic", topics[2], "--topic", topics[0]];
+    same_contacts(&analyzed(&[&[log.path()][..], &named].concat()), "named topics");
+    let message = refused(&[&["analyze", log.path(), "--preset", "two-contacts"], &named[..4]].concat());
+    assert!(message.contains("2 topics") && message.contains("3 end disks"), "{message}");
 }
 
 #[test]

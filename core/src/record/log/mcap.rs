@@ -237,7 +237,9 @@ impl McapReader {
                     Some((segment, of)) => super::chain::joints_of(names, segment, of),
                     None => names,
                 };
-                return joints(log, time, number, &names, &positions, &efforts).map_err(refuse);
+                let read = joints(log, time, number, &names, &positions, &efforts);
+                // Of several segments, a message may tell of others alone.
+                return if self.segment.is_some() { Ok(()) } else { read.map_err(refuse) };
             }
         }
         Ok(())

@@ -82,8 +82,8 @@ pub fn assemble(log: ChainLog, scenario: &ChainScenario, setup: &Setup) -> Resul
         })
         .collect();
     let fits: Vec<Option<Fit>> = placed.iter().map(|(_, fit)| *fit).collect();
-    for (k, (report, fit)) in reports.iter_mut().zip(&fits).enumerate() {
-        report.notes.extend(fit.map(|fit| format!("on disk {} the log's frame is {}", k + 1, fit.told())));
+    for (report, fit) in reports.iter_mut().zip(&fits) {
+        report.notes.extend(fit.map(|fit| format!("the log's frame is {}", fit.told())));
     }
     let recording = recording(&each, &placed, &told);
     let report = merged(&reports, rows, &shared.notes);
@@ -203,11 +203,16 @@ impl<'a> Ordered<'a> {
             *next += 1;
         }
         let last = next.checked_sub(1)?;
-        let (from, to) = (last.saturating_sub(1), (last + 1).min(track.len() - 1));
-        let (span, change) =
-            (track.times[to] - track.times[from], |part: usize| track.values[to][part] - track.values[from][part]);
+        let (before, after) = (last.saturating_sub(1), (last + 1).min(track.len() - 1));
+        let span = track.times[after] - track.times[before];
+        // What has rested up to now rests now: some detectors look only at what moves.
+        let rests = |part: usize| last > before && track.values[last][part] == track.values[before][part];
+        let rate = |part: usize| {
+            let change = track.values[after][part] - track.values[before][part];
+            if rests(part) { 0.0 } else { change / span }
+        };
         // θL falls as the bend grows; at rest its rate is 0, not −0.
-        (to > from).then(|| [0.0 - change(0) / span, 0.0 + change(1) / span])
+        (after > before).then(|| [0.0 - rate(0), 0.0 + rate(1)])
     }
 
     /// Where the model has an end disk at a time (s), in {B}, while nothing touches.

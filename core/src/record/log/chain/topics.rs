@@ -15,7 +15,8 @@ pub fn read(
     of: &Expected,
     (options, shared): (&ChainOptions, &Options),
 ) -> Result<Read, LogError> {
-    let there = topics(name, bytes.clone(), shared)?;
+    let first = Options { segment: Some((0, of.segments)), ..shared.clone() };
+    let there = topics(name, bytes.clone(), &first)?;
     let wanted = |topic: &&Topic| options.shared.topics.is_empty() || options.shared.topics.contains(&topic.name);
     let of_kind = |is: fn(Kind) -> bool| -> Vec<&Topic> {
         let fits = |topic: &&Topic| topic.messages > 0 && Kind::of(&topic.schema).is_some_and(is);
