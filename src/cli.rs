@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
 
 mod analyze;
+mod chain;
 mod draw;
 mod estimating;
 mod figure;
@@ -149,7 +150,7 @@ impl ScenarioArgs {
         if let Some(scenario) = self.chain()? {
             let segments = scenario.segments.len();
             return Err(Failure::Input(format!(
-                "this experiment has [[segment]], {segments} of them: only `centrode run` takes it"
+                "this experiment has [[segment]], {segments} of them: only `centrode run` and `centrode analyze` take it"
             )));
         }
         let link = self.link()?;
