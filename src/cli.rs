@@ -21,11 +21,11 @@ mod run;
 mod study;
 mod table2;
 
+use centrode_core::scenario::chain::ChainDraft;
+use centrode_core::scenario::link::page::CHAIN;
 use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::preset::{self, CHAINS, PRESETS};
 use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
-use centrode_core::scenario::chain::ChainDraft;
-use centrode_core::scenario::link::page::CHAIN;
 use centrode_core::scenario::{ChainScenario, Scenario, ScenarioError};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Parser, Subcommand};
