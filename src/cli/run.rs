@@ -101,13 +101,11 @@ impl RunArgs {
 
     /// The same with several segments.
     fn chain(&self, scenario: &ChainScenario, out: &mut impl Write) -> Result<(), Failure> {
-        for (given, flag) in [(self.log.is_some(), "--log"), (self.figure.is_some(), "--figure")] {
-            if given {
-                return Err(Failure::Input(format!("{flag}: not for an experiment with several segments")));
-            }
+        if self.log.is_some() {
+            return Err(Failure::Input("--log: not for an experiment with several segments".into()));
         }
         let (detector, after) = (self.estimating.named(), self.estimating.after()?);
-        let csv = self.csv.as_deref();
-        chain::execute(scenario, &chain::Asked { detector, after, json: self.json, csv }, out)
+        let (csv, figure) = (self.csv.as_deref(), self.figure.as_deref());
+        chain::execute(scenario, &chain::Asked { detector, after, json: self.json, csv, figure }, out)
     }
 }

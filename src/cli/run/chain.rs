@@ -1,9 +1,11 @@
 //! `centrode run` of an experiment with several segments.
 
+use crate::cli::draw::{self, Format};
 use crate::cli::output::{Failure, NewFile, finish_csv, json, write_record};
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
+use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::chain::{ChainReport, ChainRun, ContactTold, EstimateTold, EventTold};
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,6 +16,7 @@ pub(super) struct Asked<'a> {
     pub after: Vec<f64>,
     pub json: bool,
     pub csv: Option<&'a Path>,
+    pub figure: Option<&'a Path>,
 }
 
 /// The longest run, in samples: it is kept whole.
@@ -28,12 +31,18 @@ pub(super) fn execute(scenario: &ChainScenario, asked: &Asked, out: &mut impl Wr
             "end: a run of {samples:.0} samples; with several segments a run is kept whole, and has {MOST} at most"
         )));
     }
+    let format = asked.figure.map(|path| Format::of("--figure", path)).transpose()?;
     let csv = asked.csv.map(NewFile::create).transpose()?;
+    let figure = asked.figure.map(NewFile::create).transpose()?;
     let plan = ChainPlan::new(scenario)
         .map_err(|unsettled| Failure::Input(format!("as the experiment begins, there is {unsettled}")))?;
     let run = ChainRun::new(plan);
     if let Some(file) = csv {
         write_csv(file, &run)?;
+    }
+    if let (Some(mut file), Some(format)) = (figure, format) {
+        draw::write(&mut file, &over_time(&run), format)?;
+        file.finish()?;
     }
     let report = run.report(detector, &asked.after);
     if asked.json { json(out, &report) } else { Ok(table(out, &report)?) }
