@@ -241,3 +241,17 @@ fn a_challenge_and_the_gallery() {
     click(&mut page, "Preset");
     compare(&mut page, "gallery-desk-dark");
 }
+
+#[test]
+fn segments_in_series() {
+    for (name, theme, size, time) in [
+        ("chain-desk-dark", Dark, DESK, 7.6),
+        ("chain-desk-light", Light, DESK, 7.6),
+        ("chain-phone-dark", Dark, PHONE, 7.6),
+    ] {
+        let mut page = page(size, theme, time);
+        page.state_mut().as_mut().expect("built").go(&format!("chain=two-contacts&t={time}"));
+        finish(&mut page);
+        compare(&mut page, name);
+    }
+}

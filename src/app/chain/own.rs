@@ -256,7 +256,7 @@ pub static SCREW: [Own; 2] = [
     Own {
         key: "detection.smd_angle",
         of: Of::All,
-        label: "ξ∠ (screw axis angle)",
+        label: "ξα (screw axis angle)",
         tip: "The screw motion deviation alarms where the angle between the screw axes is larger than this.",
         quantity: Quantity::Angle,
         decimals: 1,

@@ -216,7 +216,10 @@ fn in_place(
             } else {
                 format!("{}{behind}", measure.symbol)
             };
-            let long = if one.by_segment { short.clone() } else { format!("{} {short}", measure.name) };
+            let long = match one.by_segment {
+                true => format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol),
+                false => format!("{} {short}", measure.name),
+            };
             let label = format!("Plot of segment {}: {} over time", one.segment + 1, measure.name.to_lowercase());
             let readout =
                 ReadOut { name: "", value: number(value(cursor), measure.decimals), color, style: Style::Line };

@@ -71,7 +71,7 @@ impl Shown {
                 threshold: "ξ_d",
                 ..measure(Method::FcdConsistent)
             },
-            Self::Turned => angle("Screw motion", "∠l", "Screw axis angle", "ξ_∠", Role::Sensor),
+            Self::Turned => angle("Screw motion", "α", "Screw axis angle", "ξ_α", Role::Sensor),
             Self::Bend => angle("", "θ_L", "Tangent angle", "", Role::Robot),
             Self::Direction => angle("", "δ", "Bending direction", "", Role::Robot),
         }
