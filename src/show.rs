@@ -8,6 +8,7 @@ mod load;
 mod loci;
 pub mod obstacle;
 pub mod paper;
+mod pen;
 mod robot;
 pub mod track;
 
@@ -20,6 +21,7 @@ use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
 use obstacle::{Obstacle, Push};
+use pen::Pen;
 pub use robot::Proportions;
 use std::f32::consts::PI;
 use track::Trace;
@@ -52,7 +54,9 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
     robot::robot(&mut scene, palette, &sizes, pose);
     let push = Push::of(run, &sizes, &shape);
     if let (Some(obstacle), Some(contact)) = (Obstacle::of(run, &sizes), run.plan.contact()) {
-        let beam = Beam { obstacle: &obstacle, sizes: &sizes, delta, let_go: obstacle::let_go(run, place) };
+        let section = Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta));
+        let (away, faint) = (obstacle.side as f32, obstacle::let_go(run, place));
+        let beam = Beam { obstacle: &obstacle, sizes: &sizes, section, away, faint };
         let surface = f64::from(sizes.surface(contact.arc_length));
         beam.draw(&mut scene, palette, held.then(|| beam.touching(push.as_ref(), surface)));
         if let Some(push) = &push {
@@ -68,7 +72,8 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
     if let Some(frozen) = obstacle::frozen(run, place).filter(|_| options.frozen) {
         robot::ghost(&mut scene, palette.constrained, &sizes, 0.0, |s| scene_pose(&frozen.pose(f64::from(s))));
     }
-    let signs = Signs { run, trace, truth, palette, time, lift: 1.5 * sizes.disk };
+    let pen = Pen { palette, lift: 1.5 * sizes.disk, length: run.plan.segment().length as f32 };
+    let signs = Signs { run, trace, truth, time, pen };
     signs.loci(&mut scene);
     signs.axes(&mut scene);
     if let Some(truth) = truth {

@@ -198,7 +198,7 @@ impl AnalyzeArgs {
         let options = ChainOptions { shared, mappings, tools: self.tools.clone() };
         let setup = Setup { rate: Rate::Scenario, commands, hold: self.hold, frame: self.frame()?, most: None };
         let (detector, after) = (self.estimating.named(), self.estimating.after()?);
-        let asked = chain::Asked { detector, after, json: self.json, csv: self.csv.as_deref() };
+        let asked = chain::Asked { detector, after, json: self.json, csv: self.csv.as_deref(), figure: None };
         chain::analyze(scenario, (&files, &options, setup), &asked, out)
     }
 

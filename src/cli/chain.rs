@@ -2,10 +2,12 @@
 
 mod log;
 
+use super::draw::{self, Format};
 use super::output::{Failure, NewFile, finish_csv, json, write_record};
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
+use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::chain::{ChainReport, ChainRun, ContactTold, EstimateTold, EventTold};
 use std::io::{self, Write};
 use std::path::Path;
@@ -16,16 +18,17 @@ pub(super) struct Asked<'a> {
     pub after: Vec<f64>,
     pub json: bool,
     pub csv: Option<&'a Path>,
+    pub figure: Option<&'a Path>,
 }
 
 pub(super) use log::{Files, analyze, commands};
 
-/// Refuses a drawing of a run with several segments.
+/// Refuses a drawing of a log of several segments.
 pub(super) fn without_figure(figure: Option<&Path>) -> Result<(), Failure> {
     match figure {
         None => Ok(()),
         Some(_) => Err(Failure::Input(
-            "--figure: not for an experiment with several segments, of whose detectors no drawing is made; --csv has what they hold".into(),
+            "--figure: not for a log of several segments, of which no drawing is made; --csv has what its detectors hold".into(),
         )),
     }
 }
@@ -48,7 +51,9 @@ pub(super) fn execute(
         )));
     }
     let log_file = log_file.map(log::checked).transpose()?;
+    let format = asked.figure.map(|path| Format::of("--figure", path)).transpose()?;
     let csv = asked.csv.map(NewFile::create).transpose()?;
+    let figure = asked.figure.map(NewFile::create).transpose()?;
     let plan = ChainPlan::new(scenario)
         .map_err(|unsettled| Failure::Input(format!("as the experiment begins, there is {unsettled}")))?;
     let run = ChainRun::new(plan);
@@ -57,6 +62,10 @@ pub(super) fn execute(
     }
     if let Some(file) = csv {
         write_csv(file, &run)?;
+    }
+    if let (Some(mut file), Some(format)) = (figure, format) {
+        draw::write(&mut file, &over_time(&run), format)?;
+        file.finish()?;
     }
     print(out, &run.report(detector, &asked.after), asked.json)
 }

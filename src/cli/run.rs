@@ -100,9 +100,9 @@ impl RunArgs {
 
     /// The same with several segments.
     fn chain(&self, scenario: &ChainScenario, out: &mut impl Write) -> Result<(), Failure> {
-        chain::without_figure(self.figure.as_deref())?;
         let (detector, after) = (self.estimating.named(), self.estimating.after()?);
-        let csv = self.csv.as_deref();
-        chain::execute(scenario, &chain::Asked { detector, after, json: self.json, csv }, self.log.as_deref(), out)
+        let (csv, figure) = (self.csv.as_deref(), self.figure.as_deref());
+        let asked = chain::Asked { detector, after, json: self.json, csv, figure };
+        chain::execute(scenario, &asked, self.log.as_deref(), out)
     }
 }

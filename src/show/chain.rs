@@ -1,7 +1,9 @@
 //! A run of several segments at one instant, as a scene.
 
+mod beams;
 mod bent;
 mod robot;
+mod signs;
 
 use super::{ASPECT, DESIGN_LENGTH, PITCH, Proportions, ROOM, YAW, ground, scene_pose};
 use crate::scene::palette::Palette;
@@ -28,6 +30,8 @@ pub struct ChainOptions<'a> {
 
 /// One instant of a run.
 struct Instant<'a> {
+    /// s.
+    time: f64,
     palette: &'a Palette,
     /// Of each segment, from the base.
     sizes: Vec<Proportions>,
@@ -53,6 +57,7 @@ impl<'a> Instant<'a> {
         let bends = plan.bends(time);
         let bent = Bent::new(&plan.path().backbone(time, &bends, bent::PARTS));
         Self {
+            time,
             palette,
             sizes: sizes.collect(),
             offsets: segments.iter().map(|segment| segment.joint_offset as f32).collect(),
@@ -62,13 +67,13 @@ impl<'a> Instant<'a> {
         }
     }
 
-    /// The end disk of a segment.
-    fn end(&self, segment: usize) -> Pose {
-        self.bent.pose(segment, 1.0)
+    /// The backbone of a segment at an arc length, m.
+    fn on(&self, segment: usize, at: f64) -> Pose {
+        self.bent.pose(segment, at as f32 / self.sizes[segment].length)
     }
 }
 
-/// The scene of `run` at `time` (s).
+/// The scene of `run` at `time` (s): robot, what it meets and the forces there, ghost, screw axes of every end disk, estimates.
 #[must_use]
 pub fn view(run: &ChainRun, time: f64, options: &ChainOptions<'_>) -> Scene {
     let palette = &options.palette;
@@ -80,7 +85,11 @@ pub fn view(run: &ChainRun, time: f64, options: &ChainOptions<'_>) -> Scene {
         let lengths: Vec<f64> = nominal_lengths(run).collect();
         robot::ghost(&mut scene, &instant, &Bent::free(&lengths, &instant.told));
     }
-    robot::names(&mut scene, &instant, options.chosen);
+    beams::beams(&mut scene, run, &instant, home_camera(run).backward());
+    signs::axes(&mut scene, run, &instant, options.chosen);
+    signs::names(&mut scene, &instant, options.chosen);
+    signs::placed(&mut scene, run, &instant, options.placed, options.pulse);
+    signs::end(&mut scene, run, &instant, time);
     scene
 }
 
@@ -122,3 +131,6 @@ fn free_ends(run: &ChainRun, time: f64) -> Vec<Pose> {
     let told: Vec<Configuration> = (0..lengths.len()).map(|k| run.plan.command(k, time).0).collect();
     free(&lengths, &told).iter().map(|disk| scene_pose(&disk.pose)).collect()
 }
+
+#[cfg(test)]
+mod tests;

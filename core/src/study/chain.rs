@@ -1,6 +1,7 @@
 //! What a run of several segments comes to. Segments, disks and contacts count from 1, as in a file.
 
 pub mod course;
+pub mod figure;
 
 use crate::detect::chain::{
     Along, ChainContactFound, ChainEvent, ChainJudged, ChainMethod, ChainSettings, judge_chain,

@@ -2,9 +2,9 @@
 
 use super::Instant;
 use super::bent::Bent;
-use crate::scene::{Color, Hole, Label, Line, Pose, Scene, arc};
+use crate::scene::{Color, Hole, Pose, Scene, arc};
 use crate::show::robot::{around, backbone, base, disks};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 /// How much brighter the primary backbone is than the secondary ones.
 const PRIMARY: f32 = 0.45;
@@ -46,31 +46,4 @@ fn holes(instant: &Instant<'_>, segment: usize) -> Vec<Hole> {
     let above = segment..instant.sizes.len();
     let secondary = above.flat_map(|k| around(instant.offsets[k]).map(|angle| (angle, instant.sizes[k].secondary)));
     instant.sizes[segment].holes(secondary)
-}
-
-/// What each segment is called, beside its end disk, and a ring around those of the chosen one.
-pub fn names(scene: &mut Scene, instant: &Instant<'_>, chosen: usize) {
-    let segments = instant.sizes.len();
-    if segments == 1 {
-        return;
-    }
-    for segment in 0..segments {
-        let (sin, cos) = instant.told[segment].sin_cos_delta();
-        let off = Vec3::new(-cos as f32, sin as f32, 0.0) * (1.5 * instant.sizes[segment].disk);
-        let is_chosen = segment == chosen;
-        let color = if is_chosen { instant.palette.choice } else { instant.palette.ink_dim };
-        scene.labels.push(Label {
-            anchor: instant.end(segment).point(off),
-            offset: Vec2::new(-2.0, -2.0),
-            text: format!("segment {}", segment + 1),
-            color,
-        });
-        if is_chosen {
-            let sizes = &instant.sizes[segment];
-            let base = instant.bent.pose(segment, 0.0);
-            for disk in [base, instant.end(segment)] {
-                scene.lines.push(Line::new(arc::circle(disk, 1.04 * sizes.disk, 64), 2.0, color).through(0.35));
-            }
-        }
-    }
 }

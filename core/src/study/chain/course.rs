@@ -221,7 +221,7 @@ pub fn end(run: &ChainRun) -> f64 {
 }
 
 /// Where the chain gives way.
-fn given_way(run: &ChainRun) -> impl Iterator<Item = Vertical> {
+pub(super) fn given_way(run: &ChainRun) -> impl Iterator<Item = Vertical> {
     run.plan.path().happened().iter().filter_map(|event| {
         let name = match event.what {
             What::Buckled => "buckles",
