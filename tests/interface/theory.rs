@@ -170,13 +170,13 @@ fn a_tap_names_a_symbol_and_leads_on_from_its_note() {
         let line = symbol.line().replace('_', "");
         opened(&mut page);
         tap(&mut page, at);
-        assert_eq!(named(&page), [line.clone()], "at {size}");
+        assert_eq!(named(&page), std::slice::from_ref(&line), "at {size}");
         assert!(opened(&mut page).is_empty(), "a finger is told what it is first");
         let on = page.get_by_role_and_label(Role::Button, ON).rect();
         assert!(on.width().min(on.height()) >= 43.9, "{on}");
         // It stays, to be read.
         page.run_steps(40);
-        assert_eq!(named(&page), [line.clone()]);
+        assert_eq!(named(&page), std::slice::from_ref(&line));
         tap(&mut page, on.center());
         assert_eq!(opened(&mut page), ["theory.html#sym-deviation"]);
         assert!(named(&page).is_empty() && page.query_by_label(ON).is_none());
