@@ -153,7 +153,7 @@ fn disks(
 /// The number of a label: `2`, `2.0`, `disk 2`.
 fn number(text: &str) -> Option<u64> {
     if let Ok(number) = text.parse::<f64>() {
-        return (number >= 0.0 && number < 1e6 && number.fract() == 0.0).then_some(number as u64);
+        return ((0.0..1e6).contains(&number) && number.fract() == 0.0).then_some(number as u64);
     }
     match digits(text).as_slice() {
         &[(start, end)] => text[start..end].parse().ok(),
