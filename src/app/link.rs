@@ -23,7 +23,7 @@ use crate::app::words::{self, refusal};
 use crate::render::Pixels;
 use centrode_core::scenario::chain::ChainDraft;
 use centrode_core::scenario::link::{ChainLink, Link, Page};
-use centrode_core::scenario::preset::{self, CHAINS, Preset};
+use centrode_core::scenario::preset;
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{ChainScenario, Scenario, ScenarioError};
 use centrode_core::study::tuning::watch::Rule;
@@ -292,11 +292,11 @@ impl App {
     /// Opens a file with several segments: it goes back to the preset from which the least differs.
     fn open_chain(&mut self, bytes: &[u8]) -> Result<(), String> {
         let draft = ChainDraft::from_bytes(bytes).map_err(|refused| refusal::of_chain_file(&refused))?;
-        let far = |preset: &&Preset| draft.differences(&ChainDraft::of(preset)).len();
-        let nearest = CHAINS.iter().min_by_key(far).unwrap_or(&CHAINS[0]);
+        let link = ChainLink::nearest(draft, None);
         self.leave_lesson();
         self.state.stage = Stage::Chain;
-        let ChainState { preset, segment, contact, .. } = ChainState::of(nearest);
+        let nearest = preset::find_chain(link.preset()).map(ChainState::of).unwrap_or_default();
+        let (ChainState { preset, segment, contact, .. }, draft) = (nearest, link.draft);
         let ChainState { all, shown, .. } = self.state.chain;
         self.load_chain(ChainState { preset, draft, segment, contact, all, shown });
         Ok(())

@@ -192,7 +192,7 @@ impl App {
         if let Some(rect) = layout.tabbed.filter(|rect| robot || !whole.contains_rect(*rect)) {
             layout::card(ui, "tabbed", rect, |_| ());
             let (strip, below) = layout::tab_strip(rect);
-            panels::tabs::tabs(ui, strip, state.tab, out);
+            panels::tabs::tabs(ui, strip, (state.tab, several.is_some()), out);
             if below.height() > SEEN {
                 show(ui, state.tab, below, out);
             }

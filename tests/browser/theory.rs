@@ -137,3 +137,25 @@ fn a_reader_hears_of_each_symbol_once_behind_everything_else() {
     let last = "[...document.querySelectorAll('section > h2')].at(-1).textContent";
     assert_eq!(page.eval(last), "Symbols");
 }
+
+#[test]
+fn a_tap_names_a_symbol_and_its_note_leads_to_the_theory() {
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.4", Options { still: true, ..Options::phone() });
+    page.eval("window.open = (address) => { window.opened = String(address); return null; }; 1");
+    let at = page.widget("Tab", "Plots").at(0.5);
+    page.tap(at);
+    let name = "threshold of the centrode deviation";
+    let symbol = page.widget("Link", &format!("Theory: ξ2, {name}")).at(0.5);
+    page.tap(symbol);
+    page.wait("its name", |page| {
+        page.widgets().iter().any(|widget| widget.value.starts_with(&format!("ξ2: {name}"))).then_some(())
+    });
+    assert_eq!(page.eval("window.opened ?? ''"), "", "a finger is told first");
+    let on = page.widget("Button", "Its place in the theory");
+    let [_, _, width, height] = on.bounds.expect("in sight");
+    assert!(width.min(height) >= 43.9, "{width} × {height}");
+    page.tap(on.at(0.5));
+    let address = page.wait("a tab", |page| page.eval("window.opened ?? null").as_str().map(str::to_owned));
+    assert!(address.ends_with("/deep/path/theory.html#sym-xi2"), "{address}");
+    assert_eq!(page.problems(), Vec::<String>::new());
+}

@@ -62,7 +62,9 @@ fn the_page_tells_what_the_command_tells() {
         for (number, contact) in found.iter().enumerate() {
             let said = texts(&page, &format!("Contact {}: alarm at {:.3}\u{a0}s", number + 1, contact.alarm));
             assert_eq!(said.len(), 1, "{preset}: {:?}", texts(&page, "Contact "));
-            if contact.alarm < 7.0 && let Some(estimate) = contact.estimates.first().filter(|one| one.nothing < 0.5) {
+            if contact.alarm < 7.0
+                && let Some(estimate) = contact.estimates.first().filter(|one| one.nothing < 0.5)
+            {
                 assert!(said[0].contains(&format!("segment {}", estimate.segment + 1)), "{said:?}");
             }
         }

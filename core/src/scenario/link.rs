@@ -123,8 +123,8 @@ impl Link {
             // Writing to a String cannot fail. No name or value holds a character that would need to be escaped.
             let _ = write!(text, "&{key}={value}");
         }
-        for (key, value) in self.page.chain.iter().flat_map(ChainLink::changes) {
-            let _ = write!(text, "&{}{key}={}", chain::BEFORE, percent::encoded(&value));
+        for (key, value) in self.page.chain.iter().flat_map(ChainLink::parts) {
+            let _ = write!(text, "&{key}={value}");
         }
         checked(text)
     }

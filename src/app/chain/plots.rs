@@ -174,7 +174,7 @@ pub fn chart(memo: &Memo, set: &ChainState) -> Chart {
         let segment = set.segment.min(count - 1);
         all.iter().map(|shown| panel(segment, *shown)).collect()
     };
-    Chart { title: "Contacts on segments in series".into(), caption: words::sentence(memo), panels, ..Chart::default() }
+    Chart { title: "Contacts on segments in series".into(), caption: words::sentence(memo), panels }
 }
 
 fn in_place(
@@ -217,7 +217,9 @@ fn in_place(
                 format!("{}{behind}", measure.symbol)
             };
             let long = match one.by_segment {
-                true => format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol),
+                true => {
+                    format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol)
+                }
                 false => format!("{} {short}", measure.name),
             };
             let label = format!("Plot of segment {}: {} over time", one.segment + 1, measure.name.to_lowercase());

@@ -148,7 +148,7 @@ pub static TOUR: [Step; STEPS] = [
     },
     Step {
         title: "A filter trades noise for time",
-        text: "The tracker's readings are averaged over the last N of the loop, one each millisecond. A long average is quiet and late; a short one \
+        text: "The tracker's readings are averaged over the last N steps of the loop, one each millisecond. A long average is quiet and late; a short one \
                is early and restless. Most of the delay is the average filling up with motion from after the contact.",
         task: "Shorten the filter until the contact is detected at least 0.2 s sooner.",
         noticed: "Sooner, and the free part of the curve is rougher. Make it much shorter, and noise alone crosses ξ2.",
@@ -205,7 +205,7 @@ pub static TOUR: [Step; STEPS] = [
     Step {
         title: "What the best detector knows",
         text: "CUSUM estimates the errors of calibration while the segment moves, and adds up how much more likely each reading is with a \
-               contact than without. It needs no average, so it is soon. It also says how sure it is: the band on the backbone holds the place \
+               contact than without. It needs no average, so it is quick. It also says how sure it is: the band on the backbone holds the place \
                of contact with 95 % probability.",
         task: "Play, or move the time, past the alarm of CUSUM until the band has become narrow.",
         noticed: "The frame is off, the length is wrong, and still the contact is found within some hundredths of a second and placed with its uncertainty. You have seen it all: try the challenges.",

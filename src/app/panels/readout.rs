@@ -16,7 +16,7 @@ use centrode_core::run::Run;
 /// Below this height there is less space around the words, points.
 const LOW: f32 = 290.0;
 /// The least height of a row, points.
-const LEAST: f32 = 15.5;
+const LEAST: f32 = 14.5;
 
 /// What is read out.
 pub struct Told {
@@ -53,11 +53,11 @@ pub fn readout(ui: &mut Ui, told: &Told) {
             ui.spacing_mut().item_spacing.y = 0.0;
             symbol::label(ui, text::rich(words, 13.5, theme.ink), false);
             for (said, warns) in more {
-                ui.add_space(5.0);
+                ui.add_space(if low { 4.0 } else { 5.0 });
                 let ink = if *warns { theme.alarm } else { theme.ink };
                 symbol::label(ui, text::rich(said, 12.5, ink), false);
             }
-            ui.add_space(if low { 5.0 } else { 8.0 });
+            ui.add_space(if low { 4.0 } else { 8.0 });
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);

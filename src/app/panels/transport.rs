@@ -109,8 +109,9 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Track,
         out.push(Command::ToggleLoop);
     }
     let rail_width = if narrow { (right - left - 44.0).clamp(44.0, 110.0) } else { 92.0 };
-    right -= if narrow { 2.0 } else { 8.0 };
-    speed(ui, pos2(right, y), rail_width, size, state, out);
+    right -= if narrow { 6.0 } else { 8.0 };
+    let word = if narrow { 34.0 } else { 38.0 };
+    speed(ui, pos2(right, y), (rail_width, word), size, state, out);
     right -= rail_width + 56.0;
 
     let track = if narrow {
@@ -122,11 +123,19 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Track,
     scrub(ui, track, run, cursor, out);
 }
 
-fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State, out: &mut Vec<Command>) {
+/// The speed: a slider and a word, which are so wide, points.
+fn speed(
+    ui: &mut Ui,
+    right: egui::Pos2,
+    (width, word): (f32, f32),
+    height: f32,
+    state: &State,
+    out: &mut Vec<Command>,
+) {
     let theme = Theme::of(ui);
     let spoken = format!("{}×", quantity::number(state.speed, 1));
     text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
-    let track = Rect::from_min_max(right - vec2(width + 38.0, height / 2.0), right + vec2(-38.0, height / 2.0));
+    let track = Rect::from_min_max(right - vec2(width + word, height / 2.0), right + vec2(-word, height / 2.0));
     let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
     let (response, moved) = slider::slider(
         ui,

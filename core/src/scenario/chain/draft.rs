@@ -43,8 +43,18 @@ impl ChainDraft {
     /// # Errors
     /// Those of [`ChainScenario::from_bytes`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, ChainError> {
-        ChainScenario::from_bytes(bytes, &[])?;
-        Ok(Self { table: parsed(text(bytes)?)? })
+        Self::read(bytes, &[])
+    }
+
+    /// The same with values of keys in place of those in the text.
+    ///
+    /// # Errors
+    /// Likewise.
+    pub fn read(bytes: &[u8], overrides: &[String]) -> Result<Self, ChainError> {
+        ChainScenario::from_bytes(bytes, overrides)?;
+        let mut table = parsed(text(bytes)?)?;
+        overrides.iter().try_for_each(|text| replace(&mut table, text)).map_err(whole)?;
+        Ok(Self { table })
     }
 
     /// What it says.

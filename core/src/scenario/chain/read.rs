@@ -326,7 +326,7 @@ impl Group<'_> {
             ScenarioError::Value(refused) => match renamed(&refused.key) {
                 Some(key) if key != "end" => {
                     let Refused { quantity, value, allowed, .. } = *refused;
-                    self.refuse(&key, quantity, value, allowed)
+                    self.refuse(&key, quantity, value, allowed.within("robot."))
                 }
                 Some(key) => whole(ScenarioError::Value(Box::new(Refused { key, ..*refused }))),
                 None => whole(ScenarioError::Value(refused)),

@@ -1,11 +1,25 @@
 //! What a link says of an experiment with several segments: a preset, and what differs from it.
 
+use super::percent::encoded;
 use super::read::Why;
 use crate::scenario::chain::ChainDraft;
-use crate::scenario::preset::{self, Preset};
+use crate::scenario::preset::{self, CHAINS, Preset};
 
 /// What stands before the keys of such an experiment.
 pub(super) const BEFORE: &str = "chain.";
+
+/// A key of a link as `--set` takes it: `segment.2.length` is `segment[2].length`.
+pub(super) fn path(key: &str) -> String {
+    let mut path = String::new();
+    for part in key.split('.') {
+        match part.bytes().all(|byte| byte.is_ascii_digit()) && !part.is_empty() && !path.is_empty() {
+            true => path.extend(["[", part, "]"]),
+            false if path.is_empty() => path.push_str(part),
+            false => path.extend([".", part]),
+        }
+    }
+    path
+}
 
 /// An experiment with several segments.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +43,14 @@ impl ChainLink {
         Some(Self { draft, ..Self::of(name)? })
     }
 
+    /// One of a preset, or of that from which the least differs.
+    #[must_use]
+    pub fn nearest(draft: ChainDraft, preset: Option<&str>) -> Self {
+        let far = |preset: &&Preset| draft.differences(&ChainDraft::of(preset)).len();
+        let nearest = || CHAINS.iter().min_by_key(far).unwrap_or(&CHAINS[0]);
+        Self { preset: preset.and_then(preset::find_chain).unwrap_or_else(nearest), draft }
+    }
+
     /// Name of the preset.
     #[must_use]
     pub fn preset(&self) -> &'static str {
@@ -39,6 +61,14 @@ impl ChainLink {
     #[must_use]
     pub fn changes(&self) -> Vec<(String, String)> {
         self.draft.differences(&ChainDraft::of(self.preset))
+    }
+
+    /// The same as a link has it: no brackets, which addresses do not hold.
+    pub(super) fn parts(&self) -> impl Iterator<Item = (String, String)> {
+        let named = |(key, value): (String, String)| {
+            (format!("{BEFORE}{}", key.replace('[', ".").replace(']', "")), encoded(&value))
+        };
+        self.changes().into_iter().map(named)
     }
 
     /// When its run ends, s, unless something gives way before.

@@ -209,7 +209,7 @@ pub const PAGE_KEYS: &[PageKey] = &[
         name: CHAIN,
         quantity: Quantity::Word,
         allowed: Allowed::Words(CHAIN_NAMES),
-        sentence: "The preset with several segments; keys behind chain. change it, as in chain.segment[2].motion.theta_end=0.9.",
+        sentence: "The preset with several segments; keys behind chain. change it, as in chain.segment.2.motion.theta_end=0.9.",
         get: |page| page.chain.as_ref().map(|chain| Value::Word(chain.preset())),
         set: |page, value| word(value, |word| page.chain = ChainLink::of(word)),
     },

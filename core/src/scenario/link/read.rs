@@ -1,6 +1,6 @@
 //! Reading a link: whatever it holds there is a scenario that can be run, and nothing that was wrong goes untold.
 
-use super::chain::{BEFORE, ChainLink};
+use super::chain::{BEFORE, ChainLink, path};
 use super::page::CHAIN;
 use super::percent::decoded;
 use super::{Link, MAX_LINK, PAGE_KEYS, Page, VERSION, differences, is_address};
@@ -192,7 +192,7 @@ impl Reader {
                     other => other,
                 })?)
             }
-            (name, _) if name.starts_with(BEFORE) => self.chain.push((name[BEFORE.len()..].into(), text.into())),
+            (name, _) if name.starts_with(BEFORE) => self.chain.push((path(&name[BEFORE.len()..]), text.into())),
             ("v", _) if text.parse() == Ok(VERSION) => {}
             ("v", _) => return Err(Why::Newer),
             _ if PAGE_KEYS.iter().any(|key| key.name == name) => self.page.enter(name, text)?,
