@@ -15,6 +15,7 @@ use centrode_core::chart::Chart;
 use centrode_core::chart::csv::csv;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::link::Page;
+use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::course::between;
 use centrode_core::study::export::{name, signed};
 use centrode_core::study::figure::Number;
@@ -306,9 +307,7 @@ impl App {
     fn chart(&self, subject: Subject) -> Result<Chart, String> {
         let scenario = self.made_of(subject).1;
         match subject {
-            Subject::Chain => {
-                self.chained().map(|memo| chain::plots::chart(memo, &self.state.chain)).ok_or_else(|| UNDONE.into())
-            }
+            Subject::Chain => self.chained().map(|memo| over_time(memo.run())).ok_or_else(|| UNDONE.into()),
             Subject::View => Err("The 3D view is no chart".into()),
             Subject::Plots => Ok(match self.log() {
                 Some(name) => timeline::recorded(self.memo.run(), name),

@@ -28,8 +28,7 @@ pub(super) fn without_figure(figure: Option<&Path>) -> Result<(), Failure> {
     match figure {
         None => Ok(()),
         Some(_) => Err(Failure::Input(
-            "--figure: not for a log of several segments, of which no drawing is made; --csv has what detectors hold"
-                .into(),
+            "--figure: not for a log of several segments, of which no drawing is made; --csv has what its detectors hold".into(),
         )),
     }
 }
@@ -51,8 +50,8 @@ pub(super) fn execute(
             "end: a run of {samples:.0} samples; with several segments a run is kept whole, and has {MOST} at most"
         )));
     }
-    let format = asked.figure.map(|path| Format::of("--figure", path)).transpose()?;
     let log_file = log_file.map(log::checked).transpose()?;
+    let format = asked.figure.map(|path| Format::of("--figure", path)).transpose()?;
     let csv = asked.csv.map(NewFile::create).transpose()?;
     let figure = asked.figure.map(NewFile::create).transpose()?;
     let plan = ChainPlan::new(scenario)

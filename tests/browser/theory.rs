@@ -140,9 +140,10 @@ fn a_reader_hears_of_each_symbol_once_behind_everything_else() {
 
 #[test]
 fn a_tap_names_a_symbol_and_its_note_leads_to_the_theory() {
-    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.4", Options { still: true, ..Options::phone() });
+    let options = Options { size: [390, 844], phone: true, still: true, ..Options::default() };
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.4", options);
     page.eval("window.open = (address) => { window.opened = String(address); return null; }; 1");
-    let at = page.widget("Tab", "Plots").at(0.5);
+    let at = page.widget("RadioButton", "Plots").at(0.5);
     page.tap(at);
     let name = "threshold of the centrode deviation";
     let symbol = page.widget("Link", &format!("Theory: ξ2, {name}")).at(0.5);

@@ -112,9 +112,21 @@ pub fn do_it(page: &mut Page, step: usize) {
             assert!(!done(page, 8));
             slide(page, "Frame z", 3.0);
         }
-        _ => {
+        9 => {
             slide(page, "Time", 6.2);
             finish(page);
+        }
+        10 => {
+            slide(page, "Time", 5.2);
+            assert!(!done(page, 10), "nothing has alarmed yet");
+            slide(page, "Time", 6.0);
+            finish(page);
+        }
+        11 => slide(page, "Time", 8.0),
+        _ => {
+            slide(page, "Time", 5.0);
+            assert!(!done(page, 12));
+            slide(page, "Time", 10.0);
         }
     }
     page.run_steps(2);

@@ -380,10 +380,10 @@ fn a_frame_is_fitted_to_all_trackers_with_each_marker_turned() {
     text.push('\n');
     for at in instants() {
         write!(text, "{}", RIG.times[at]).expect("a text");
-        for disk in 0..3 {
+        for (disk, marker) in markers.iter().enumerate() {
             let reading = RIG.readings[disk].as_ref().expect("a tracker")[at];
             let position = turn.transpose() * (reading.position - shift);
-            let angles = to_euler(&(turn.transpose() * from_euler(&reading.angles) * markers[disk]));
+            let angles = to_euler(&(turn.transpose() * from_euler(&reading.angles) * marker));
             position.iter().chain(&angles).for_each(|part| write!(text, ",{part}").expect("a text"));
             write!(text, ",{},{}", value("theta_l", disk, at), value("delta", disk, at)).expect("a text");
         }

@@ -57,7 +57,6 @@ impl App {
         let chain = &mut self.state.chain;
         match wish {
             Wish::Choose(preset) => {
-                self.leave_lesson();
                 self.state.stage = Stage::Chain;
                 self.load_chain(ChainState { all: self.state.chain.all, ..ChainState::of(preset) });
             }

@@ -4,6 +4,7 @@ use crate::app::charts::notation::number;
 use crate::app::memo::MAX_SAMPLES;
 use crate::app::stages::viewport::subject::Subject;
 use centrode_core::detect::chain::{ChainContactFound, ChainEstimate, ChainMethod};
+use centrode_core::model::chain::path::What;
 use centrode_core::scenario::chain::ChainDraft;
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
@@ -172,6 +173,22 @@ impl Memo {
     #[must_use]
     pub fn refusal(&self) -> Option<&str> {
         self.refusal.as_deref()
+    }
+
+    /// How far the last end disk is out of the bending plane of the first segment at a time (s), m.
+    #[must_use]
+    pub fn aside(&self, time: f64) -> f64 {
+        let time = time.min(self.end());
+        let plan = &self.run.plan;
+        let truth = plan.path().at(time, &plan.bends(time));
+        let (sin, cos) = plan.command(0, time).0.sin_cos_delta();
+        truth.disks.last().map_or(0.0, |disk| (sin * disk.position.x + cos * disk.position.y).abs())
+    }
+
+    /// Whether the robot gives way before the run would end.
+    #[must_use]
+    pub fn gives_way(&self) -> bool {
+        self.run.plan.path().happened().iter().any(|event| matches!(event.what, What::Buckled | What::Lost))
     }
 
     /// When the run ends, s.

@@ -2,7 +2,7 @@
 
 use crate::app::chain::apply::Wish;
 use crate::app::chain::memo::Memo;
-use crate::app::chain::{ChainState, chosen, words};
+use crate::app::chain::{ChainState, chosen};
 use crate::app::charts::notation::{job, number};
 use crate::app::charts::paint::{self, Picture, page};
 use crate::app::charts::plots::frame::{Frame, GUTTER, Pointed, RIGHT, ReadOut, SMALL};
@@ -155,26 +155,6 @@ fn short(name: &'static str) -> &'static str {
         "Bending direction" => "δ",
         other => other,
     }
-}
-
-/// The plots as they are shown, as a chart of a file.
-#[must_use]
-pub fn chart(memo: &Memo, set: &ChainState) -> Chart {
-    let (run, all) = (memo.run(), Shown::all(memo.run()));
-    let count = run.recording.segments();
-    let panel = |segment: usize, shown: Shown| {
-        let mut panel = shown.panel(run, segment, shown.range(run));
-        panel.title = format!("Segment {}: {}", segment + 1, panel.title.to_lowercase());
-        panel
-    };
-    let panels = if set.all {
-        let shown = chosen(set, &all);
-        (0..count).map(|segment| panel(segment, shown)).collect()
-    } else {
-        let segment = set.segment.min(count - 1);
-        all.iter().map(|shown| panel(segment, *shown)).collect()
-    };
-    Chart { title: "Contacts on segments in series".into(), caption: words::sentence(memo), panels }
 }
 
 fn in_place(

@@ -128,7 +128,7 @@ impl ChainLog {
             self.format = read.format;
         }
         self.rows += read.rows;
-        self.columns.extend(columns_of(&read.logs, self.logs.len()));
+        self.columns.extend(columns_of(&read.logs));
         self.notes
             .extend(read.notes.into_iter().map(|note| if name.is_empty() { note } else { format!("{name}: {note}") }));
         let mut logs = read.logs;
@@ -198,23 +198,22 @@ fn shifted(mut log: Log, later: f64) -> Log {
 }
 
 /// The columns of a file whose logs these are, each told once.
-fn columns_of(logs: &[(usize, Log)], segments: usize) -> Vec<ChainColumn> {
+fn columns_of(logs: &[(usize, Log)]) -> Vec<ChainColumn> {
     let mut columns: Vec<ChainColumn> = Vec::new();
     let width = logs.iter().map(|(_, log)| log.columns.len()).max().unwrap_or(0);
     // Columns of a topic or a tool are its own; those of a CSV file are the file's.
     let shared = logs.iter().all(|(_, log)| log.format == Format::Csv);
     for place in 0..width {
-        let of = |(disk, log): &'_ &(usize, Log)| Some((*disk, log.columns.get(place)?.clone()));
-        let all: Vec<(usize, Column)> = logs.iter().collect::<Vec<_>>().iter().filter_map(of).collect();
+        let of = |(disk, log): &(usize, Log)| Some((*disk, log.columns.get(place)?.clone()));
+        let all: Vec<(usize, Column)> = logs.iter().filter_map(of).collect();
+        let told = |segment: Option<usize>, column: &Column| ChainColumn { segment, column: column.clone() };
         let used: Vec<&(usize, Column)> = all.iter().filter(|(_, column)| column.role.is_some()).collect();
         match used.as_slice() {
-            [] => columns.extend(all.first().map(|(_, column)| ChainColumn { segment: None, column: column.clone() })),
-            [(_, column), ..] if shared && used.len() == logs.len() && segments > 1 && logs.len() > 1 => {
-                columns.push(ChainColumn { segment: None, column: column.clone() });
+            [] => columns.extend(all.first().map(|(_, column)| told(None, column))),
+            [(_, column), ..] if shared && used.len() == logs.len() && logs.len() > 1 => {
+                columns.push(told(None, column))
             }
-            each => columns.extend(
-                each.iter().map(|(disk, column)| ChainColumn { segment: Some(disk + 1), column: column.clone() }),
-            ),
+            each => columns.extend(each.iter().map(|(disk, column)| told(Some(disk + 1), column))),
         }
     }
     columns

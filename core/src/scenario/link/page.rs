@@ -32,7 +32,7 @@ pub const SPEEDS: (f64, f64) = (0.1, 4.0);
 /// The most repeats of a study.
 pub const MAX_REPEATS: u64 = 100_000;
 /// Steps of the page's tour.
-pub const TOUR_STEPS: u64 = 10;
+pub const TOUR_STEPS: u64 = 13;
 /// The page's challenges.
 pub const CHALLENGES: &[&str] = &["disk-1", "half", "blind", "clamp", "disk-3", "best"];
 /// The page's themes: as the system says, or one of its own.
