@@ -56,7 +56,8 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
     if let (Some(obstacle), Some(contact)) = (Obstacle::of(run, &sizes), run.plan.contact()) {
         let section = Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta));
         let (away, faint) = (obstacle.side as f32, obstacle::let_go(run, place));
-        let beam = Beam { obstacle: &obstacle, sizes: &sizes, section, away, faint };
+        let reach = [-1.0, 1.0].map(|end| end * beam::FITTING * sizes.disk);
+        let beam = Beam { obstacle: &obstacle, sizes: &sizes, section, away, reach, faint };
         let surface = f64::from(sizes.surface(contact.arc_length));
         beam.draw(&mut scene, palette, held.then(|| beam.touching(push.as_ref(), surface)));
         if let Some(push) = &push {

@@ -16,7 +16,9 @@ const POST: f32 = 2.6;
 /// Opacity once the segment has got away from it.
 const FAINT: f32 = 0.3;
 /// Half the width of what is fixed to the bar, in radii of a disk.
-const FITTING: f32 = 0.6;
+pub const FITTING: f32 = 0.6;
+/// The post stands at least so far beyond that, in radii of a disk.
+const BEYOND: f32 = 1.0;
 
 /// A beam in space.
 pub struct Beam<'a> {
@@ -28,6 +30,8 @@ pub struct Beam<'a> {
     pub section: Pose,
     /// On which side along y its post stands, away from the viewer: +1 or −1.
     pub away: f32,
+    /// How far what is fixed to it reaches along y: toward the viewer and away, m.
+    pub reach: [f32; 2],
     /// Whether it is drawn as faint as something that is in nobody's way: the segment has got away from it, or it stands there only later.
     pub faint: bool,
 }
@@ -56,21 +60,24 @@ impl Beam<'_> {
         let across = self.frame() * Quat::from_rotation_x(std::f32::consts::FRAC_PI_2);
         let (center, rod) = (self.obstacle.bar.0, self.obstacle.bar.1 as f32);
         // What is fixed to the bar hides its front end.
-        let front = if self.obstacle.fittings.is_empty() { BAR[0] } else { -0.8 * FITTING };
+        let bare = self.obstacle.fittings.is_empty();
+        let front = if bare { BAR[0] * disk } else { 0.8 * self.reach[0] };
+        let post = if bare { POST * disk } else { (POST * disk).max(self.reach[1] + BEYOND * disk) };
+        let back = post + (BAR[1] - POST) * disk;
         for piece in self.obstacle.pieces() {
             scene.blocks.push(match piece {
                 Piece::Round { center, radius } => {
-                    let half_length = 0.5 * (BAR[1] - front) * disk;
-                    let solid = Solid::Cylinder { radius: radius as f32, half_length };
-                    block(self.point(center, 0.5 * (front + BAR[1]) * disk), across, solid)
+                    let solid = Solid::Cylinder { radius: radius as f32, half_length: 0.5 * (back - front) };
+                    block(self.point(center, 0.5 * (front + back)), across, solid)
                 }
                 Piece::Bar { center, half } => {
-                    let half = Vec3::new(half[0] as f32, FITTING * disk, half[1] as f32);
-                    block(self.point(center, 0.0), self.frame(), Solid::Box { half })
+                    let [near, far] = self.reach;
+                    let half = Vec3::new(half[0] as f32, 0.5 * (far - near), half[1] as f32);
+                    block(self.point(center, 0.5 * (near + far)), self.frame(), Solid::Box { half })
                 }
             });
         }
-        let top = self.point(center, POST * disk);
+        let top = self.point(center, post);
         // A rod thicker than the post ends it.
         let above = if rod > usual { 0.0 } else { 1.5 * usual };
         let half_height = 0.5 * (top.z + above - floor).max(0.0);

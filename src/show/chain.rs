@@ -32,6 +32,8 @@ pub struct ChainOptions<'a> {
 struct Instant<'a> {
     /// s.
     time: f64,
+    /// The sample of that time.
+    place: usize,
     palette: &'a Palette,
     /// Of each segment, from the base.
     sizes: Vec<Proportions>,
@@ -39,10 +41,10 @@ struct Instant<'a> {
     offsets: Vec<f32>,
     /// What each segment is told.
     told: Vec<Configuration>,
-    /// The true backbone.
+    /// The true backbone; that of the model for a log.
     bent: Bent,
-    /// What presses and how hard: truth.
-    truth: path::Instant,
+    /// What presses and how hard, where it is known.
+    truth: Option<path::Instant>,
 }
 
 impl<'a> Instant<'a> {
@@ -52,19 +54,33 @@ impl<'a> Instant<'a> {
         let lengths = segments.iter().map(|segment| segment.alone.true_robot().segment().length);
         let sizes = segments.iter().zip(lengths);
         let sizes = sizes.map(|(segment, length)| Proportions::of_robot(&segment.alone.scenario().robot, length));
-        // Where the chain buckles, the picture stops.
-        let time = time.clamp(0.0, plan.path().end());
-        let bends = plan.bends(time);
-        let bent = Bent::new(&plan.path().backbone(time, &bends, bent::PARTS));
-        Self {
+        let place = run.recording.times.partition_point(|at| *at <= time + 1e-9).saturating_sub(1);
+        let mut instant = Self {
             time,
+            place,
             palette,
             sizes: sizes.collect(),
             offsets: segments.iter().map(|segment| segment.joint_offset as f32).collect(),
-            told: (0..segments.len()).map(|k| plan.command(k, time).0).collect(),
-            bent,
-            truth: plan.path().at(time, &bends),
+            told: told(run, time),
+            bent: Bent::free(&[], &[]),
+            truth: None,
+        };
+        if run.recording.truth.is_some() {
+            // Where the chain buckles, the picture stops.
+            instant.time = time.clamp(0.0, plan.path().end());
+            let bends = plan.bends(instant.time);
+            instant.told = told(run, instant.time);
+            instant.bent = Bent::new(&plan.path().backbone(instant.time, &bends, bent::PARTS));
+            instant.truth = Some(plan.path().at(instant.time, &bends));
+        } else {
+            instant.bent = Bent::free(&nominal_lengths(run), &instant.told);
         }
+        instant
+    }
+
+    /// The contacts that press.
+    fn pressing(&self) -> &[usize] {
+        self.truth.as_ref().map_or(&[], |truth| &truth.active)
     }
 
     /// The backbone of a segment at an arc length, m.
@@ -78,12 +94,11 @@ impl<'a> Instant<'a> {
 pub fn view(run: &ChainRun, time: f64, options: &ChainOptions<'_>) -> Scene {
     let palette = &options.palette;
     let instant = Instant::new(run, time, palette);
-    let scale = 0.7 * nominal_lengths(run).sum::<f64>() as f32 / DESIGN_LENGTH;
+    let scale = SPREAD * nominal_lengths(run).iter().sum::<f64>() as f32 / DESIGN_LENGTH;
     let mut scene = Scene { ground: Some(ground(palette, &instant.sizes[0], scale)), ..Scene::default() };
     robot::robot(&mut scene, &instant);
-    if !instant.truth.active.is_empty() {
-        let lengths: Vec<f64> = nominal_lengths(run).collect();
-        robot::ghost(&mut scene, &instant, &Bent::free(&lengths, &instant.told));
+    if !instant.pressing().is_empty() {
+        robot::ghost(&mut scene, &instant, &Bent::free(&nominal_lengths(run), &instant.told));
     }
     beams::beams(&mut scene, run, &instant, home_camera(run).backward());
     signs::axes(&mut scene, run, &instant, options.chosen);
@@ -93,6 +108,8 @@ pub fn view(run: &ChainRun, time: f64, options: &ChainOptions<'_>) -> Scene {
     scene
 }
 
+/// The floor of a chain is so much smaller than its length asks for: it never lies down.
+const SPREAD: f32 = 0.7;
 /// Instants of the whole motion at which the camera looks at the robot.
 const LOOKS: usize = 24;
 
@@ -106,10 +123,12 @@ pub fn home_camera(run: &ChainRun) -> Camera {
         .iter()
         .map(|segment| Proportions::of_robot(&segment.alone.scenario().robot, segment.alone.segment().length))
         .collect();
+    let last = run.recording.times.last().copied().unwrap_or(0.0);
+    let end = if run.recording.truth.is_some() { scenario.common().motion.end } else { last };
     let mut points = Vec::new();
     let mut leans = Vec3::ZERO;
     for look in 0..=LOOKS {
-        let ends = free_ends(run, scenario.common().motion.end * look as f64 / LOOKS as f64);
+        let ends = free_ends(run, end * look as f64 / LOOKS as f64);
         leans += ends.last().map_or(Vec3::ZERO, |tip| tip.position);
         points.extend(sizes.iter().zip(&ends).flat_map(|(sizes, end)| sizes.outline(end).collect::<Vec<_>>()));
     }
@@ -121,15 +140,23 @@ fn heading(along: Vec3) -> f32 {
     if along.truncate().length() > 1e-3 * along.length() { along.y.atan2(along.x) } else { 0.0 }
 }
 
-fn nominal_lengths(run: &ChainRun) -> impl Iterator<Item = f64> {
-    run.plan.scenario().segments.iter().map(|segment| segment.alone.segment().length)
+fn nominal_lengths(run: &ChainRun) -> Vec<f64> {
+    run.plan.scenario().segments.iter().map(|segment| segment.alone.segment().length).collect()
+}
+
+/// What each segment is told at a time (s): as a log has it, or as the plan does, which goes on where a chain has buckled.
+fn told(run: &ChainRun, time: f64) -> Vec<Configuration> {
+    let recording = &run.recording;
+    if recording.truth.is_some() {
+        return (0..recording.segments()).map(|segment| run.plan.command(segment, time).0).collect();
+    }
+    let place = recording.times.partition_point(|at| *at <= time + 1e-9).saturating_sub(1);
+    recording.told.iter().filter_map(|told| Some(told.get(place)?.configuration)).collect()
 }
 
 /// The end disks of the model that nothing touches, from the base.
 fn free_ends(run: &ChainRun, time: f64) -> Vec<Pose> {
-    let lengths: Vec<f64> = nominal_lengths(run).collect();
-    let told: Vec<Configuration> = (0..lengths.len()).map(|k| run.plan.command(k, time).0).collect();
-    free(&lengths, &told).iter().map(|disk| scene_pose(&disk.pose)).collect()
+    free(&nominal_lengths(run), &told(run, time)).iter().map(|disk| scene_pose(&disk.pose)).collect()
 }
 
 #[cfg(test)]

@@ -60,14 +60,14 @@ pub fn names(scene: &mut Scene, instant: &Instant<'_>, chosen: usize) {
 
 /// The screw axes of every end disk in the frame of the one below it, as the model and the tracker have them.
 pub fn axes(scene: &mut Scene, run: &ChainRun, instant: &Instant<'_>, chosen: usize) {
-    let times = &run.recording.times;
-    let Some(place) = times.partition_point(|time| *time <= instant.time + 1e-9).checked_sub(1) else { return };
+    let place = instant.place;
+    let Some(&time) = run.recording.times.get(place) else { return };
     for (segment, judged) in run.judged.segments.iter().enumerate() {
         let Some(evidence) = judged.evidence.get(place) else { continue };
-        let rates = run.plan.command(segment, times[place]).1;
+        let [theta_l, delta] = run.recording.told[segment][place].rates;
         let is_chosen = segment == chosen;
         let screws = Screws { instant, segment, is_chosen, judged, evidence };
-        screws.draw(scene, times[place], Rate { theta_l: rates[0], delta: rates[1] });
+        screws.draw(scene, time, Rate { theta_l, delta });
     }
 }
 
@@ -114,8 +114,9 @@ impl Screws<'_> {
             if armed {
                 let over = thresholds.xi2.value().is_some_and(|xi2| judgement.deviation > xi2);
                 let color = if over { palette.detection } else { palette.ink };
-                pen.deviation(scene, [model, sensor], color);
+                // Of the others their axes are enough.
                 if self.is_chosen {
+                    pen.deviation(scene, [model, sensor], color);
                     pen.distance(scene, [model, sensor], judgement.deviation, color);
                 }
             }
@@ -156,11 +157,13 @@ fn place(scene: &mut Scene, instant: &Instant<'_>, estimate: &ChainEstimate, pul
     let (pen, palette) = (instant.pen(segment), instant.palette);
     let aside = instant.aside(segment, place.mean, 1.9);
     pen.ends(scene, [place.low, place.high].map(|s| instant.on(segment, s).position), aside);
+    // The sign stands beside the backbone, where it does not hide the band.
     let at = instant.on(segment, place.mean).position;
-    scene.lines.push(Line::new(vec![at, at + aside], 1.5, palette.detection).through(0.9).lifted(pen.lift));
-    scene.markers.push(pen.sign(at, Shape::Diamond, 14.0, palette.detection).pulsing(pulse));
-    let offset = Vec2::new(-2.0, -2.0);
-    scene.labels.push(Label { anchor: at + aside, offset, text: words(estimate), color: palette.detection });
+    let off = at + aside;
+    scene.lines.push(Line::new(vec![at, off], 1.5, palette.detection).through(0.9).lifted(pen.lift));
+    scene.markers.push(pen.sign(off, Shape::Diamond, 14.0, palette.detection).pulsing(pulse));
+    let offset = Vec2::new(-8.0, -8.0);
+    scene.labels.push(Label { anchor: off, offset, text: words(estimate), color: palette.detection });
 }
 
 /// An estimate in words.

@@ -91,8 +91,11 @@ fn a_contact_is_placed_on_the_segment_that_carries_it() {
         let pose = run.plan.path().pose(8.0, &run.plan.bends(8.0), contact.segment, contact.at);
         crate::show::scene_vector(&pose.position)
     });
-    let marked = both.markers.iter().filter(|marker| marker.shape == Shape::Diamond);
-    assert!(marked.zip(touched).all(|(marker, touched)| marker.position.distance(touched) < 1e-3));
+    let leaders: Vec<_> = both.lines.iter().filter(|line| line.color == Palette::LIGHT.detection).collect();
+    let leaders = leaders.iter().filter(|line| both.labels.iter().any(|label| line.path.last() == Some(&label.anchor)));
+    let starts: Vec<Vec3> = leaders.map(|line| line.path[0]).collect();
+    assert_eq!(starts.len(), 2);
+    assert!(starts.iter().zip(touched).all(|(start, touched)| start.distance(touched) < 1e-3));
 }
 
 #[test]
@@ -131,6 +134,38 @@ fn a_plate_stands_where_its_plane_is() {
             assert!((0.002..0.006).contains(&beyond), "{name}: by the robot's side behind the plane, {beyond}");
         }
     }
+}
+
+#[test]
+fn a_plate_is_as_large_as_what_slides_along_it() {
+    for (name, run) in RUNS.iter() {
+        for k in 0..40 {
+            let time = 0.25 * f64::from(k);
+            let scene = at(run, time, &[]);
+            let rings = scene.markers.iter().filter(|marker| marker.shape == Shape::Ring);
+            for ring in rings {
+                let inside = scene.blocks.iter().any(|block| match block.solid {
+                    crate::scene::Solid::Box { half } => {
+                        let at = block.pose.rotation.inverse() * (ring.position - block.pose.position);
+                        at.abs().cmple(half + Vec3::splat(1e-4)).all()
+                    }
+                    crate::scene::Solid::Cylinder { .. } => false,
+                });
+                assert!(inside, "{name} at {time}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_log_shows_the_model_and_nothing_that_nobody_knows() {
+    let mut recorded = run("two-contacts").clone();
+    recorded.recording.truth = None;
+    let scene = at(&recorded, 8.0, &[]);
+    assert_eq!((ghosts(&scene), lines(&scene, Palette::LIGHT.force)), (0, 0));
+    let tip = *scene.tubes[8].path.last().expect("a path");
+    let free = free_ends(run("two-contacts"), 8.0)[2];
+    assert!(tip.distance(free.position) < 0.003, "the end of the third primary backbone");
 }
 
 #[test]
