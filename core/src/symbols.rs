@@ -98,8 +98,8 @@ pub const SYMBOLS: &[Symbol] = &[
     row("xi-f", "ξ_f", "threshold of ‖c_f − c_s‖", "m"),
     row("screw-distance", "‖f_m − f_s‖", "distance between the screw axes of model and sensor, at the disk below", "m"),
     row("xi-d", "ξ_d", "threshold of ‖f_m − f_s‖", "m"),
-    row("screw-angle", "∠l", "angle between the screw axes of model and sensor", "rad"),
-    row("xi-angle", "ξ_∠", "threshold of ∠l", "rad"),
+    row("screw-angle", "α", "angle between the screw axes of model and sensor", "rad"),
+    row("xi-angle", "ξ_α", "threshold of α", "rad"),
     row("xi-v", "ξ_v", "threshold of ‖ω_s‖‖c_m − c_s‖", "m/s"),
     row("nu", "ν", "innovations: readings less all that the calibration filter could predict, of unit variance", "1"),
     row("eta", "η", "errors of the calibration", ""),
@@ -149,7 +149,7 @@ pub fn within(label: &str) -> Vec<&'static Symbol> {
 pub fn spans(drawn: &str) -> Vec<(Range<usize>, &'static Symbol)> {
     let mut rest: Vec<char> = drawn.chars().collect();
     let mut found = Vec::new();
-    for symbol in SYMBOLS.iter().filter(|symbol| symbol.text.contains(['‖', '∠'])) {
+    for symbol in SYMBOLS.iter().filter(|symbol| symbol.text.contains('‖')) {
         let whole: Vec<char> = bare(symbol.text).chars().collect();
         let mut from = 0;
         while let Some(at) = rest[from..].windows(whole.len()).position(|window| window == whole) {
@@ -262,7 +262,7 @@ mod tests {
         assert_eq!(ids("Length L"), ["l"]);
         assert_eq!(ids("ξ2 (centrode)"), ["xi2"]);
         assert_eq!(ids("Load cell error ε_τ"), ["epsilon-tau"]);
-        assert_eq!(ids("∠l above ξ_∠ or ‖f_m − f_s‖ above ξ_d"), ["screw-angle", "xi-angle", "screw-distance", "xi-d"]);
+        assert_eq!(ids("α above ξ_α or ‖f_m − f_s‖ above ξ_d"), ["screw-angle", "xi-angle", "screw-distance", "xi-d"]);
         assert_eq!(ids("Arc length s (mm), force F (N), N of 250"), ["s", "f", "n"]);
     }
 }

@@ -224,8 +224,8 @@ impl Layout {
         let mut rest = inner(page);
         let bar = rest.top(TARGET);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
-        // Beside the tools and four views that can be read.
-        let room = bar.width() - tools_width(true) - 2.0 * GAP - 196.0;
+        // Beside the tools and five views that can be read.
+        let room = bar.width() - tools_width(true) - 2.0 * GAP - 5.0 * TARGET;
         let title = (0.32 * bar.width()).clamp(150.0, 300.0).min(room.max(110.0));
         Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport)
             .with_sheet(sheet::beside(rest.0, sheet), sheet)

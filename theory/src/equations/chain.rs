@@ -86,8 +86,8 @@ fn detection() -> Vec<Law> {
         row(
             "chain-screw",
             "screw motion deviation",
-            r"\norm{\v{f}_m - \v{f}_s} > \xi_d \quad\text{or}\quad \angle\v{l} > \xi_\angle, \qquad
-              \angle\v{l} = \operatorname{atan2}\left(\norm{\v{l}_m\times\v{l}_s},\ \v{l}_m\cdot\v{l}_s\right)",
+            r"\norm{\v{f}_m - \v{f}_s} > \xi_d \quad\text{or}\quad \alpha > \xi_\alpha, \qquad
+              \alpha = \operatorname{atan2}\left(\norm{\v{l}_m\times\v{l}_s},\ \v{l}_m\cdot\v{l}_s\right)",
             vec![
                 item!(detect::chain::ChainMethod),
                 field!(detect::Judgement.consistent),
