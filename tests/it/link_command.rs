@@ -152,7 +152,7 @@ fn a_broken_link_is_refused_and_its_keys_are_named() {
         (&["link", "--t", "10.5", PAGE], &["t = 10.5", "motion.end = 10 s"]),
         (&["link", "--t", "-1", PAGE], &["--t", "-1", "0 s"]),
         (&["link", "--tour", "14", PAGE], &["--tour", "14", "1 to 13"]),
-        (&["link", "--tour", "-1", PAGE], &["--tour", "-1", "1 to 10"]),
+        (&["link", "--tour", "-1", PAGE], &["--tour", "-1", "1 to 13"]),
         (&["link", "--tour", "next", PAGE], &["--tour", "next", "whole number"]),
         (&["link", "--challenge", "disk-2", PAGE], &["--challenge", "disk-2", "disk-1", "best"]),
         (&["link", "--tour", "4", "--challenge", "clamp", PAGE], &["--tour", "--challenge"]),
