@@ -270,35 +270,31 @@ impl App {
         self.state.tuning = Tuning { rule, wish: false_alarms, repeats, compare };
     }
 
-    /// Takes what a link says of several segments.
-    fn link_chain(&mut self, chain: &ChainLink) {
+    /// Takes what a link says of several segments, and stays at the time where playback stands.
+    fn link_chain(&mut self, link: &ChainLink) {
         let now = &self.state.chain;
-        if (now.preset.as_str(), &now.draft) == (chain.preset(), &chain.draft) {
+        if (now.preset.as_str(), &now.draft) == (link.preset(), &link.draft) {
             return;
         }
-        let opened = preset::find_chain(chain.preset()).map(ChainState::of).unwrap_or_default();
-        let playing = self.state.playing;
-        let time = self.state.time;
-        let ChainState { segment, contact, .. } = opened;
-        let ChainState { all, shown, .. } = *now;
-        let segment = if opened.preset == now.preset { now.segment } else { segment };
-        let draft = chain.draft.clone();
-        self.load_chain(ChainState { preset: opened.preset, draft, segment, contact, all, shown });
-        if !playing {
-            self.state.time = time;
-        }
+        let stands = (!self.state.playing).then_some(self.state.time);
+        self.take_chain(link);
+        self.state.time = stands.unwrap_or(self.state.time);
+    }
+
+    /// Shows several segments from the beginning, with what is looked at of them where they are of the same preset.
+    fn take_chain(&mut self, link: &ChainLink) {
+        let now = &self.state.chain;
+        let mut chain = preset::find_chain(link.preset()).map(ChainState::of).unwrap_or_default();
+        chain.segment = if chain.preset == now.preset { now.segment } else { chain.segment };
+        self.load_chain(ChainState { draft: link.draft.clone(), all: now.all, shown: now.shown, ..chain });
     }
 
     /// Opens a file with several segments: it goes back to the preset from which the least differs.
     fn open_chain(&mut self, bytes: &[u8]) -> Result<(), String> {
         let draft = ChainDraft::from_bytes(bytes).map_err(|refused| refusal::of_chain_file(&refused))?;
-        let link = ChainLink::nearest(draft, None);
         self.leave_lesson();
         self.state.stage = Stage::Chain;
-        let nearest = preset::find_chain(link.preset()).map(ChainState::of).unwrap_or_default();
-        let (ChainState { preset, segment, contact, .. }, draft) = (nearest, link.draft);
-        let ChainState { all, shown, .. } = self.state.chain;
-        self.load_chain(ChainState { preset, draft, segment, contact, all, shown });
+        self.take_chain(&ChainLink::nearest(draft, None));
         Ok(())
     }
 

@@ -69,6 +69,24 @@ roles! {
     Quality, "quality", None, ["valid", "tracked", "visible", "status"], "What the tracker thinks of its reading.";
 }
 
+impl Role {
+    /// Where a tracker is.
+    pub const POSITION: [Self; 3] = [Self::X, Self::Y, Self::Z];
+    /// How it is turned: Euler angles, a quaternion or a rotation vector.
+    pub const ORIENTATION: [Self; 10] = [
+        Self::Azimuth,
+        Self::Elevation,
+        Self::Roll,
+        Self::Qx,
+        Self::Qy,
+        Self::Qz,
+        Self::Qw,
+        Self::Rx,
+        Self::Ry,
+        Self::Rz,
+    ];
+}
+
 /// An alias as long as this counts at the end of a name, too.
 const LONG: usize = 5;
 

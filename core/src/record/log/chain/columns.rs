@@ -24,21 +24,11 @@ pub struct Divided {
     pub joints_either_way: bool,
 }
 
-const READING: [Role; 13] = [
-    Role::X,
-    Role::Y,
-    Role::Z,
-    Role::Azimuth,
-    Role::Elevation,
-    Role::Roll,
-    Role::Qx,
-    Role::Qy,
-    Role::Qz,
-    Role::Qw,
-    Role::Rx,
-    Role::Ry,
-    Role::Rz,
-];
+/// Whether it is of a tracker's reading.
+fn reads(role: Role) -> bool {
+    Role::POSITION.contains(&role) || Role::ORIENTATION.contains(&role)
+}
+
 const BENDS: [Role; 5] = [Role::ThetaL, Role::Bend, Role::Q1, Role::Q2, Role::Q3];
 
 /// What the columns of a header tell.
@@ -56,12 +46,10 @@ struct Table<'a> {
 /// Whether columns of a header tell of disks by their names, so that rows do not.
 #[must_use]
 pub fn names_disks(headers: &[String], line: u64, mappings: &[ChainMapping], segments: usize) -> bool {
-    let reads = |rest: &str| looks_like(with_unit(rest).0).is_some_and(|role| READING.contains(&role));
+    let told = |rest: &str| looks_like(with_unit(rest).0).is_some_and(reads);
     let by_name = named(headers, line, segments)
-        .is_ok_and(|(named, _)| named.iter().any(|of| of.disk.is_some() && reads(&of.rest)));
-    let mapped = |mapping: &ChainMapping| {
-        mapping.disk.is_some() && mapping.mapping.role.is_some_and(|role| READING.contains(&role))
-    };
+        .is_ok_and(|(named, _)| named.iter().any(|of| of.disk.is_some() && told(&of.rest)));
+    let mapped = |mapping: &ChainMapping| mapping.disk.is_some() && mapping.mapping.role.is_some_and(reads);
     by_name || mappings.iter().any(mapped)
 }
 
@@ -97,7 +85,7 @@ pub fn divide(
         let mine = |owner: &Owner| *owner == Owner::All || *owner == Owner::Disk(disk);
         let tells = |(owner, role): (&Owner, &Option<Role>)| {
             let of_one = long || *owner == Owner::Disk(disk);
-            of_one && mine(owner) && role.is_some_and(|role| READING.contains(&role) || BENDS.contains(&role))
+            of_one && mine(owner) && role.is_some_and(|role| reads(role) || BENDS.contains(&role))
         };
         let tells = owners.iter().zip(&table.roles).any(tells);
         if tells && of.disk.is_none_or(|only| only == disk || !long) {
@@ -136,8 +124,7 @@ impl Table<'_> {
         let wanted = if self.long || self.of.disk.is_some() { 0 } else { self.of.segments };
         let mut found: Vec<(usize, usize)> = Vec::new();
         for (place, role) in self.roles.iter().enumerate() {
-            let Some(role) = role.filter(|role| READING.contains(role) || BENDS.contains(role) || *role == Role::Delta)
-            else {
+            let Some(role) = role.filter(|role| reads(*role) || BENDS.contains(role) || *role == Role::Delta) else {
                 continue;
             };
             let same: Vec<usize> =
@@ -165,7 +152,7 @@ impl Table<'_> {
 
     fn owners(&self, line: u64) -> Result<Vec<Owner>, LogError> {
         let one = |disk: Option<usize>| disk.map_or(Owner::Nobody, Owner::Disk);
-        let numbered_readings = self.disks_with(|role| READING.contains(&role)) > 0;
+        let numbered_readings = self.disks_with(reads) > 0;
         let numbered_bends = self.disks_with(|role| BENDS.contains(&role)) > 0;
         let numbered_delta = self.disks_with(|role| role == Role::Delta) > 0;
         let last = self.of.segments - 1;
@@ -173,12 +160,12 @@ impl Table<'_> {
         let of_file = self.of.disk;
         let owner = |place: usize| {
             if let Some(disk) = self.disk(place) {
-                let reads = self.roles[place].is_some_and(|role| READING.contains(&role));
+                let reads = self.roles[place].is_some_and(reads);
                 return Ok(if reads && self.of.commands_alone { Owner::Nobody } else { Owner::Disk(disk) });
             }
             Ok(match self.roles[place] {
                 Some(Role::Time | Role::Quality) => Owner::All,
-                Some(role) if READING.contains(&role) => match of_file {
+                Some(role) if reads(role) => match of_file {
                     _ if self.of.commands_alone => Owner::Nobody,
                     _ if self.long => Owner::All,
                     Some(disk) => Owner::Disk(disk),
