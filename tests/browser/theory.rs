@@ -71,7 +71,9 @@ fn its_landmarks_and_names_are_there() {
     for (selector, wanted) in [("html[lang=en]", 1), ("main", 1), ("nav[aria-label]", 1), ("h1", 1), ("header", 1)] {
         assert_eq!(count(&mut page, selector), wanted, "{selector}");
     }
-    assert_eq!(count(&mut page, ".equation[aria-label]"), 24);
+    let equations = count(&mut page, ".equation");
+    assert!(equations > 30, "{equations}");
+    assert_eq!(count(&mut page, ".equation[aria-label]"), equations);
     assert_eq!(count(&mut page, "svg:not([role=img])"), 0);
     let untitled =
         page.eval("[...document.querySelectorAll('svg')].filter(e => !e.querySelector('title')?.textContent).length");
