@@ -1,37 +1,40 @@
-//! What every target does: read a file piece by piece, and make a recording of it.
+//! What each target does with the bytes that it is given, and what must hold of it.
+//!
+//! `cargo xtask fuzz` runs them on what libFuzzer thinks of; the tests of the project run them on the files of `corpus/`.
 
-use centrode_core::record::log::chain::{self, ChainLog, ChainOptions, Expected};
-use centrode_core::record::log::{Commands, Format, Options, Rate, Reader, Setup, assemble};
-use centrode_core::scenario::Scenario;
-use centrode_core::scenario::preset::find_chain;
+mod bytes;
+pub mod experiment;
+pub mod logs;
+pub mod messages;
+mod relations;
+pub mod texts;
 
-/// Reads bytes as a log of a format. Nothing may panic; whether the log is refused does not matter.
-pub fn read(format: Format, bytes: &[u8]) {
-    let options =
-        Options { format: Some(format), tool: Some("1".into()), frame_rate: Some(100.0), ..Options::default() };
-    let Ok(mut reader) = Reader::new("fuzzed", bytes.to_vec(), &options) else { return };
-    loop {
-        match reader.work(16) {
-            Ok(progress) if progress.is_done() => break,
-            Ok(_) => {}
-            Err(_) => return,
-        }
-    }
-    let Ok(log) = reader.finish() else { return };
-    // Slow enough that a recording stays small.
-    let scenario = Scenario { loop_rate: 10.0, ..Scenario::default() };
-    for commands in [None, Some(Commands::Motion)] {
-        let _ = assemble(&log, &scenario, &Setup { rate: Rate::Scenario, commands, ..Setup::default() });
-    }
-}
+use centrode_core::record::log::Format;
 
-/// Reads bytes as a log of three trackers, in whatever format they look like. Nothing may panic; whether the log is refused does not matter.
-pub fn read_several(bytes: &[u8]) {
-    let Some(scenario) = find_chain("two-contacts").and_then(|preset| preset.chain(&[]).ok()) else { return };
-    let Ok(scenario) = scenario.at_rate(10.0) else { return };
-    let mut log = ChainLog::new(scenario.segments.len());
-    let read = chain::read("fuzzed", bytes.to_vec(), &Expected::of(&scenario), &ChainOptions::default());
-    if read.and_then(|read| log.take(read, "")).is_ok() {
-        let _ = chain::assemble(log, &scenario, &Setup::default());
-    }
+/// A target: its name, which is also that of its folder in `corpus/`, and what it does.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All of them.
+pub const TARGETS: [Target; 12] = [
+    ("scenario", texts::scenario),
+    ("overrides", texts::overrides),
+    ("link", texts::link),
+    ("csv", |bytes| logs::read(Format::Csv, bytes)),
+    ("tum", |bytes| logs::read(Format::Tum, bytes)),
+    ("euroc", |bytes| logs::read(Format::Euroc, bytes)),
+    ("ndi", |bytes| logs::read(Format::Ndi, bytes)),
+    ("mcap", |bytes| logs::read(Format::Mcap, bytes)),
+    ("several", logs::read_several),
+    ("messages", messages::messages),
+    ("run", experiment::run),
+    ("chain", experiment::chain),
+];
+
+/// Runs a target on some bytes.
+///
+/// # Panics
+/// When something does not hold that must, or there is no such target.
+pub fn run(name: &str, bytes: &[u8]) {
+    let (_, target) = TARGETS.iter().find(|(known, _)| *known == name).expect("a target of this name");
+    target(bytes);
 }

@@ -37,6 +37,7 @@ mod figure;
 mod files;
 mod fingerprints;
 mod forces;
+mod fuzz;
 mod golden;
 #[cfg(feature = "gui-tests")]
 mod gpu;

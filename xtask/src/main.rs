@@ -3,6 +3,7 @@
 //! Run as `cargo xtask COMMAND`.
 
 mod build;
+mod fuzz;
 mod licence;
 #[cfg(test)]
 mod light;
@@ -59,6 +60,8 @@ enum Command {
     },
     /// Run the tests: all of them, or the stages named
     Test(test::Options),
+    /// Throw made-up input at what reads, and at whole experiments
+    Fuzz(fuzz::Options),
     /// Replace what tests compare with by what they find now
     Renew {
         /// What to replace
@@ -87,6 +90,7 @@ fn obey(command: Command) -> Result<()> {
         Command::Build { dev, .. } => build::build(Which::dev(dev)).map(drop),
         Command::Serve { port, dev, dist } => serve::command(port, dev, dist),
         Command::Test(options) => test::command(&options),
+        Command::Fuzz(options) => fuzz::command(&options),
         Command::Renew { stored } => renew::command(stored),
         Command::Tidy => tidy::command(),
         Command::Shot(options) => shot::command(&options),

@@ -139,3 +139,26 @@ fn succeeds(command: &mut Command) -> bool {
         .status()
         .is_ok_and(|status| status.success())
 }
+
+/// The toolchain by which programs for fuzzing are instrumented.
+pub const NIGHTLY: &str = "nightly";
+/// The version of cargo-fuzz.
+const FUZZER: &str = "0.13.2";
+
+/// Finds cargo-fuzz and a nightly toolchain, or installs them.
+pub fn fuzzer() -> Result<PathBuf> {
+    if !succeeds(Command::new("rustc").arg("--version").env("RUSTUP_TOOLCHAIN", NIGHTLY)) {
+        run(Command::new("rustup").args(["toolchain", "install", NIGHTLY, "--profile", "minimal"]))
+            .context("fuzzing needs a nightly toolchain, and rustup could not bring it")?;
+    }
+    let folder = target().join("fuzz/tools");
+    let tool = folder.join("bin/cargo-fuzz");
+    if !tool.is_file() {
+        run(Command::new("cargo")
+            .args(["install", "cargo-fuzz", "--version", FUZZER, "--locked", "--root"])
+            .arg(&folder)
+            .env("CARGO_TARGET_DIR", folder.join("build")))
+        .context("fuzzing needs cargo-fuzz, and cargo could not bring it")?;
+    }
+    Ok(tool)
+}
