@@ -3,6 +3,7 @@
 pub mod apply;
 pub mod backbone;
 pub mod controls;
+pub mod log;
 pub mod memo;
 pub mod own;
 pub mod plots;
@@ -64,6 +65,8 @@ impl ChainState {
 pub struct Chain {
     /// The run; none before it is looked at.
     pub memo: Option<Memo>,
+    /// A log in place of the simulation.
+    pub logs: log::Logs,
     /// What the preset says.
     base: Option<(String, ChainScenario)>,
     /// What was refused last, by path.
@@ -92,9 +95,9 @@ impl Chain {
             self.base = base.map(|base| (state.preset.clone(), base));
         }
         match &mut self.memo {
-            Some(memo) => memo.update(&state.draft),
+            Some(memo) => memo.update(&state.draft, self.logs.shown.as_ref()),
             None => {
-                self.memo = Some(Memo::new(&state.draft));
+                self.memo = Some(Memo::new(&state.draft, self.logs.shown.as_ref()));
                 true
             }
         }

@@ -463,7 +463,11 @@ impl App {
             }
             None => self.link()?,
         };
-        let of_log = self.log_command(&link).filter(|_| self.state.stage == Stage::Robot);
+        let of_log = match self.state.stage {
+            Stage::Robot => self.log_command(&link),
+            Stage::Chain => self.chain_log_command(&link),
+            _ => None,
+        };
         Ok(of_log.unwrap_or_else(|| link.command()))
     }
 

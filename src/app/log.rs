@@ -54,6 +54,7 @@ impl Logs {
             name: parts.file.name.clone(),
             facts: words::log::facts(recorded),
             missing: words::log::missing(recorded),
+            columns: true,
         })
     }
 }
@@ -82,13 +83,19 @@ impl App {
             form.second(file);
             return;
         }
+        if self.state.stage == Stage::Chain {
+            self.chain_log_chosen(&file);
+            return;
+        }
         self.logs.form = None;
         self.read_log(Parts::new(file));
     }
 
     /// The bytes of a file that were asked for by [`Effect::Fetch`], or why they cannot be had.
     pub fn log_fetched(&mut self, number: u32, bytes: Result<Vec<u8>, String>) {
-        self.logs.desk.fetched(number, bytes);
+        if let Some(bytes) = self.chain_log_fetched(number, bytes) {
+            self.logs.desk.fetched(number, bytes);
+        }
     }
 
     fn read_log(&mut self, parts: Parts) {
@@ -133,6 +140,10 @@ impl App {
 
     /// Carries out what is wished of a log.
     pub(super) fn wish_of_log(&mut self, wish: LogWish) {
+        if self.state.stage == Stage::Chain {
+            self.wish_of_chain_log(&wish);
+            return;
+        }
         match wish {
             LogWish::Report => {
                 if let (Some(parts), Some(recorded)) = (&self.logs.shown, self.memo.recorded()) {

@@ -28,8 +28,11 @@ impl App {
         let ui = &mut whole;
         ui.painter().rect_filled(page, 0.0, theme.surface);
         let sheet = panels::sheet::place(ui, &self.state, self.prefers_reduced_motion, out);
-        // Segments in series are simulated, whatever log is shown of one.
-        let banner = self.logs.banner(self.memo.recorded()).filter(|_| self.state.stage != Stage::Chain);
+        // Of segments in series a log of their own is shown.
+        let banner = match self.state.stage {
+            Stage::Chain => self.chain.banner(),
+            _ => self.logs.banner(self.memo.recorded()),
+        };
         let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
         let (top, page) = page.split_top_bottom_at_y(page.top() + above);
         let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));

@@ -5,6 +5,7 @@ use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, click, finish, fits, p
 use centrode::app::link::Effect;
 use centrode::app::stages::stage::Stage;
 use centrode_core::detect::chain::ChainMethod;
+use centrode_core::record::log::write;
 use centrode_core::scenario::ChainPlan;
 use centrode_core::scenario::chain::{Stands, Tracked};
 use centrode_core::scenario::link::Link;
@@ -212,4 +213,68 @@ fn plots_show_all_segments_or_everything_of_one() {
     page.run_steps(2);
     assert!(figures(&page) >= 4, "{:?}", texts(&page, "Plot of segment"));
     assert!(texts(&page, "Plot of segment 3").is_empty());
+}
+
+/// What the rig would have recorded of a preset, without what is true.
+fn recorded(preset: &str) -> Vec<u8> {
+    let recording = run(preset).recording;
+    let mut text = write::chain_csv_header(&recording);
+    (0..recording.times.len()).for_each(|at| write::chain_csv_row(&mut text, &recording, at));
+    text.into_bytes()
+}
+
+#[test]
+fn a_log_of_several_trackers_takes_the_place_of_the_simulation() {
+    let mut page = chained(DESK, "two-contacts");
+    let simulated = told(&page);
+    assert_eq!(simulated.len(), 2, "{simulated:?}");
+    page.state_mut().as_mut().expect("built").opened("rig.csv", Ok(recorded("two-contacts")));
+    page.run_steps(3);
+    finish(&mut page);
+    assert!(app(&page).notice().is_none(), "{:?}", app(&page).notice());
+    fits(&page, DESK, "a log");
+    assert_eq!(texts(&page, "Log rig").len(), 1);
+    assert!(!texts(&page, "A log does not say whether anything touched").is_empty());
+    // The same readings give the same alarms.
+    assert_eq!(told(&page), simulated);
+    assert_eq!(crate::logs::copied_command(&mut page), "centrode analyze rig.csv --preset two-contacts");
+    page.run_steps(2);
+    click(&mut page, "Report");
+    assert!(app(&page).notice().is_some_and(|notice| notice.details.contains("Segment 3")));
+    page.run_steps(3);
+    click(&mut page, "Go on");
+    page.state_mut().as_mut().expect("built").go("view=chain&chain=two-contacts&t=4");
+    page.run_steps(3);
+    // What is set judges it anew: a higher threshold alarms later.
+    page.state_mut().as_mut().expect("built").go("view=chain&chain=two-contacts&chain.detection.cusum=60&t=4");
+    page.run_steps(3);
+    finish(&mut page);
+    assert_ne!(told(&page), simulated);
+    page.state_mut().as_mut().expect("built").go("view=chain&chain=two-contacts&t=4");
+    page.run_steps(3);
+    click(&mut page, "Close log");
+    finish(&mut page);
+    assert!(texts(&page, "Log rig").is_empty());
+    assert_eq!(told(&page), simulated);
+}
+
+#[test]
+fn a_log_that_cannot_be_read_says_why_and_changes_nothing() {
+    let mut page = chained(DESK, "two-contacts");
+    let before = told(&page);
+    page.state_mut().as_mut().expect("built").opened("one.csv", Ok(b"time,x_1\n0,soon\n".to_vec()));
+    page.run_steps(3);
+    let why = app(&page).notice().map(|notice| (notice.title.clone(), notice.text.clone())).expect("it is told");
+    assert_eq!(why.0, "one.csv was not read");
+    assert!(why.1.len() > 20, "{}", why.1);
+    assert_eq!(told(&page), before);
+}
+
+/// The contacts that are told, with the time of each alarm.
+fn told(page: &Page) -> Vec<String> {
+    let all = texts(page, "alarm at");
+    all.iter()
+        .filter_map(|said| Some(said.split_once(',')?.0.to_owned()))
+        .filter(|said| said.starts_with("Contact"))
+        .collect()
 }

@@ -201,7 +201,7 @@ fn a_refused_log_says_where_and_the_one_before_stays() {
 }
 
 /// What “Copy command” copies.
-fn copied_command(page: &mut Page) -> String {
+pub fn copied_command(page: &mut Page) -> String {
     click(page, "Share");
     page.get_by_role_and_label(Role::MenuItem, "Copy command").click();
     let mut copied = String::new();

@@ -86,6 +86,9 @@ pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
             if let Some(refusal) = inputs.chain.memo.as_ref().and_then(|memo| memo.refusal()) {
                 row::refusal(ui, &format!("{refusal}. What is shown is the last run that was possible."));
             }
+            if inputs.chain.logs.shown.is_some() {
+                row::note(ui, "A log is shown. What is set here judges it; motions that it holds itself, contacts and sensors are those of simulations.");
+            }
             panel.segments(ui, out);
             for (name, _) in OWN {
                 panel.own(ui, name, out);

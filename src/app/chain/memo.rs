@@ -1,13 +1,18 @@
 //! What is set of several segments → their run → the contacts that are told, each made anew when what it depends on changes.
 
+use std::rc::Rc;
+
+use crate::app::chain::log::Opened;
 use crate::app::charts::notation::number;
 use crate::app::memo::MAX_SAMPLES;
 use crate::app::stages::viewport::subject::Subject;
 use centrode_core::detect::chain::{ChainContactFound, ChainEstimate, ChainMethod};
+use centrode_core::model::chain::Unsettled;
 use centrode_core::model::chain::path::What;
 use centrode_core::scenario::chain::ChainDraft;
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
+use centrode_core::study::about::ChainAbout;
 use centrode_core::study::chain::ChainRun;
 use centrode_core::study::chain::course;
 
@@ -34,8 +39,8 @@ impl Told {
 /// The last run that was possible, and why the wanted one is not.
 pub struct Memo {
     wanted: ChainDraft,
-    scenario: ChainScenario,
-    run: ChainRun,
+    log: Option<Rc<Opened>>,
+    ran: Ran,
     teller: Option<ChainMethod>,
     /// The contacts that are told; none while they are still to be found.
     told: Option<Vec<Told>>,
@@ -43,9 +48,24 @@ pub struct Memo {
     refusal: Option<String>,
 }
 
-/// The run of a text.
-fn run(draft: &ChainDraft) -> Result<(ChainScenario, ChainRun), String> {
+/// What came of a text, or of a log that is judged by it.
+struct Ran {
+    scenario: ChainScenario,
+    run: ChainRun,
+    /// How the log was read; none of a simulation.
+    about: Option<ChainAbout>,
+}
+
+fn run(draft: &ChainDraft, log: Option<&Rc<Opened>>) -> Result<Ran, String> {
     let scenario = draft.scenario().map_err(|refused| refused.to_string())?;
+    if let Some(log) = log {
+        let assembled = log.assembled(&scenario);
+        let assembled =
+            assembled.map_err(|error| format!("The log does not fit what is set: {}", error.without_flags()))?;
+        let run = ChainRun::recorded(&assembled).map_err(|unsettled| begins(&unsettled))?;
+        let about = Some(ChainAbout::new(&assembled));
+        return Ok(Ran { scenario: assembled.scenario, run, about });
+    }
     let (end, rate) = (scenario.common().motion.end, scenario.common().loop_rate);
     if end * rate > MAX_SAMPLES as f64 {
         return Err(format!(
@@ -54,36 +74,40 @@ fn run(draft: &ChainDraft) -> Result<(ChainScenario, ChainRun), String> {
             number(rate, 0)
         ));
     }
-    let plan =
-        ChainPlan::new(&scenario).map_err(|unsettled| format!("As the experiment begins, there is {unsettled}"))?;
-    Ok((scenario, ChainRun::new(plan)))
+    let plan = ChainPlan::new(&scenario).map_err(|unsettled| begins(&unsettled))?;
+    Ok(Ran { scenario, run: ChainRun::new(plan), about: None })
+}
+
+fn begins(unsettled: &Unsettled) -> String {
+    format!("As the experiment begins, there is {unsettled}")
 }
 
 impl Memo {
-    /// Runs what is set; the first preset in place of what is refused.
+    /// Runs what is set, or judges a log by it; the first preset in place of what is refused.
     ///
     /// # Panics
     /// When the first preset is impossible, which a test excludes.
     #[must_use]
-    pub fn new(draft: &ChainDraft) -> Self {
-        let ((scenario, ran), refusal) = match run(draft) {
+    pub fn new(draft: &ChainDraft, log: Option<&Rc<Opened>>) -> Self {
+        let (ran, refusal) = match run(draft, log) {
             Ok(made) => (made, None),
-            Err(why) => (run(&ChainDraft::of(&CHAINS[0])).expect("the first preset is possible"), Some(why)),
+            Err(why) => (run(&ChainDraft::of(&CHAINS[0]), None).expect("the first preset is possible"), Some(why)),
         };
-        let teller = ran.judged.teller();
-        Self { wanted: draft.clone(), scenario, run: ran, teller, told: None, version: 0, refusal }
+        let teller = ran.run.judged.teller();
+        Self { wanted: draft.clone(), log: log.cloned(), ran, teller, told: None, version: 0, refusal }
     }
 
     /// Brings the run up to date. Returns whether what is set had changed.
-    pub fn update(&mut self, draft: &ChainDraft) -> bool {
-        if *draft == self.wanted {
+    pub fn update(&mut self, draft: &ChainDraft, log: Option<&Rc<Opened>>) -> bool {
+        let same_log = self.log.as_ref().map(Rc::as_ptr) == log.map(Rc::as_ptr);
+        if *draft == self.wanted && same_log {
             return false;
         }
-        self.wanted = draft.clone();
-        match run(draft) {
-            Ok((scenario, run)) => {
-                (self.scenario, self.run, self.refusal) = (scenario, run, None);
-                (self.teller, self.told) = (self.run.judged.teller(), None);
+        (self.wanted, self.log) = (draft.clone(), log.cloned());
+        match run(draft, log) {
+            Ok(ran) => {
+                (self.ran, self.refusal) = (ran, None);
+                (self.teller, self.told) = (self.ran.run.judged.teller(), None);
                 self.version += 1;
             }
             Err(why) => self.refusal = Some(why),
@@ -94,7 +118,7 @@ impl Memo {
     /// Finds the contacts, then places one of them, first what is known at a time (s). Returns whether more is to be done.
     pub fn work(&mut self, time: f64) -> bool {
         let Some(told) = &mut self.told else {
-            let found = self.teller.map_or_else(Vec::new, |teller| self.run.judged.contacts(teller, &[]));
+            let found = self.teller.map_or_else(Vec::new, |teller| self.ran.run.judged.contacts(teller, &[]));
             self.told = Some(found.into_iter().map(|found| Told { found, estimates: Vec::new() }).collect());
             return self.is_working();
         };
@@ -106,7 +130,7 @@ impl Memo {
         let next = told.get(place + 1).map_or(f64::INFINITY, |next| next.found.alarm);
         let one = &mut told[place];
         let after = AFTER[one.estimates.len()];
-        let made = (one.found.alarm + after < next).then(|| self.run.judged.estimate(teller, &one.found, after));
+        let made = (one.found.alarm + after < next).then(|| self.ran.run.judged.estimate(teller, &one.found, after));
         one.estimates.push(made.flatten());
         self.is_working()
     }
@@ -121,13 +145,19 @@ impl Memo {
     /// What is set: the last that was possible.
     #[must_use]
     pub fn scenario(&self) -> &ChainScenario {
-        &self.scenario
+        &self.ran.scenario
     }
 
     /// Its run.
     #[must_use]
     pub fn run(&self) -> &ChainRun {
-        &self.run
+        &self.ran.run
+    }
+
+    /// How the log that is shown was read; none while a simulation is.
+    #[must_use]
+    pub fn about(&self) -> Option<&ChainAbout> {
+        self.ran.about.as_ref()
     }
 
     /// The contacts that are told, as far as they have been found.
@@ -153,8 +183,8 @@ impl Memo {
     #[must_use]
     pub fn subject(&self, chosen: usize, time: f64) -> Subject<'_> {
         let placed = self.placed(time).into_iter().map(|(_, estimate)| estimate).collect();
-        let chosen = chosen.min(self.run.recording.segments() - 1);
-        Subject::Chain { run: &self.run, chosen, placed, alarm: self.alarm(time) }
+        let chosen = chosen.min(self.ran.run.recording.segments() - 1);
+        Subject::Chain { run: &self.ran.run, chosen, placed, alarm: self.alarm(time) }
     }
 
     /// When the last alarm was raised before a time (s).
@@ -179,7 +209,7 @@ impl Memo {
     #[must_use]
     pub fn aside(&self, time: f64) -> f64 {
         let time = time.min(self.end());
-        let plan = &self.run.plan;
+        let plan = &self.ran.run.plan;
         let truth = plan.path().at(time, &plan.bends(time));
         let (sin, cos) = plan.command(0, time).0.sin_cos_delta();
         truth.disks.last().map_or(0.0, |disk| (sin * disk.position.x + cos * disk.position.y).abs())
@@ -188,19 +218,22 @@ impl Memo {
     /// Whether the robot gives way before the run would end.
     #[must_use]
     pub fn gives_way(&self) -> bool {
-        self.run.plan.path().happened().iter().any(|event| matches!(event.what, What::Buckled | What::Lost))
+        self.ran.run.plan.path().happened().iter().any(|event| matches!(event.what, What::Buckled | What::Lost))
     }
 
     /// When the run ends, s.
     #[must_use]
     pub fn end(&self) -> f64 {
-        course::end(&self.run)
+        course::end(&self.ran.run)
     }
 
     /// Where playback opens and loops to, s: shortly before the first motion.
     #[must_use]
     pub fn lead_in(&self) -> f64 {
-        lead_in(&self.scenario).min(self.end())
+        if self.ran.about.is_some() {
+            return 0.0;
+        }
+        lead_in(&self.ran.scenario).min(self.end())
     }
 }
 

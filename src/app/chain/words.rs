@@ -32,6 +32,9 @@ fn pressing(run: &ChainRun, time: f64) -> usize {
 #[must_use]
 pub fn phase(memo: &Memo, time: f64) -> Phase {
     let run = memo.run();
+    if memo.about().is_some() {
+        return if memo.alarm(time).is_some() { Phase::Detected } else { Phase::Quiet };
+    }
     let first = met(run).map(|(_, time)| time).fold(f64::INFINITY, f64::min);
     match memo.alarm(time) {
         Some(_) if memo.told().iter().any(|told| told.found.alarm <= time && told.found.alarm >= first) => {
@@ -90,6 +93,9 @@ fn told(number_of: usize, one: &Told, time: f64) -> String {
 /// What the run came to.
 #[must_use]
 pub fn sentence(memo: &Memo) -> String {
+    if memo.about().is_some() {
+        return "A log does not say whether anything touched the robot.".into();
+    }
     let run = memo.run();
     let touched: Vec<usize> = met(run).map(|(place, _)| place).collect();
     let mut said = match touched.len() {
@@ -155,8 +161,14 @@ fn teller(memo: &Memo) -> &'static str {
 fn figures(memo: &Memo, time: f64) -> Vec<Figure> {
     let run = memo.run();
     let figure = |name, value: Option<String>, unit| Figure { name, value: value.unwrap_or("–".into()), unit };
+    let found = memo.told().len();
+    let told = figure("Contacts told", (!memo.is_working() || found > 0).then(|| found.to_string()), "");
     let first = met(run).next().map(|(_, time)| time);
     let alarm = memo.told().first().map(|told| told.found.alarm);
+    let detected = figure("Detected", alarm.map(|alarm| number(alarm, 3)), "s");
+    if memo.about().is_some() {
+        return vec![told, detected, figure("Log ends", Some(number(memo.end(), 3)), "s")];
+    }
     let delay = first.zip(alarm).map(|(met, alarm)| number(alarm - met, 2));
     let truth = run.plan.path().at(time, &run.plan.bends(time));
     let force = truth.forces.iter().copied().filter(|force| force.is_finite()).fold(0.0, f64::max);
@@ -164,12 +176,8 @@ fn figures(memo: &Memo, time: f64) -> Vec<Figure> {
         figure("Contacts now", Some(truth.active.len().to_string()), ""),
         figure("Largest force", Some(number(force, 2)), "N"),
         figure("Stability margin", Some(number(truth.margin, 2)), ""),
-        figure(
-            "Contacts told",
-            (!memo.is_working() || !memo.told().is_empty()).then(|| memo.told().len().to_string()),
-            "",
-        ),
-        figure("Detected", alarm.map(|alarm| number(alarm, 3)), "s"),
+        told,
+        detected,
         figure("Delay", delay, "s"),
     ]
 }
@@ -185,7 +193,8 @@ pub fn said(memo: &Memo, time: f64) -> String {
         }
         Phase::FalseAlarm => "False alarm.".into(),
         Phase::Contact => format!("In contact with {}, not detected yet.", things(pressing(run, time))),
-        Phase::Free | Phase::Quiet => "Free: nothing touches the robot.".into(),
+        Phase::Free => "Free: nothing touches the robot.".into(),
+        Phase::Quiet => "No alarm.".into(),
     }
 }
 

@@ -199,6 +199,12 @@ pub fn choice(ui: &mut Ui, choice: &'static Choice, context: &Context<'_>, out: 
     ui.add_space(6.0);
 }
 
+/// Says something that no row says.
+pub fn note(ui: &mut Ui, note: &str) {
+    let theme = Theme::of(ui);
+    ui.add(egui::Label::new(egui::RichText::new(note).size(12.0).color(theme.dim)).wrap());
+}
+
 /// Says what was refused.
 pub fn refusal(ui: &mut Ui, note: &str) {
     let theme = Theme::of(ui);

@@ -21,6 +21,8 @@ pub enum Banner {
         facts: String,
         /// What it lacks; empty for nothing.
         missing: String,
+        /// Whether a person can say which column is what.
+        columns: bool,
     },
 }
 
@@ -42,8 +44,9 @@ pub fn banner(ui: &mut Ui, rect: Rect, banner: &Banner, out: &mut Vec<Command>) 
     ui.painter().hline(rect.x_range(), rect.bottom(), egui::Stroke::new(1.0, theme.faint));
     let buttons: &[(&str, LogWish)] = match banner {
         Banner::Reading(..) => &[("Stop reading", LogWish::Cancel)],
-        Banner::Shown { .. } => {
-            &[("Close log", LogWish::Close), ("Report", LogWish::Report), ("Columns", LogWish::Form)]
+        Banner::Shown { columns, .. } => {
+            let all = &[("Close log", LogWish::Close), ("Report", LogWish::Report), ("Columns", LogWish::Form)];
+            if *columns { all } else { &all[..2] }
         }
     };
     let row = rect.with_max_y(rect.top() + ROW);
@@ -64,7 +67,7 @@ pub fn banner(ui: &mut Ui, rect: Rect, banner: &Banner, out: &mut Vec<Command>) 
             ui.painter().rect_filled(line.with_max_x(rect.left() + rect.width() * share), 0.0, theme.accent);
             (name, format!("Reading … {done:.0} %"), "")
         }
-        Banner::Shown { name, facts, missing } => (name, facts.clone(), missing.as_str()),
+        Banner::Shown { name, facts, missing, .. } => (name, facts.clone(), missing.as_str()),
     };
     let title = format!("Log {name}");
     let first = row.with_min_x(left).with_max_x(right - 6.0);

@@ -6,9 +6,11 @@ use crate::app::panels::notice::{Notice, Row};
 use crate::app::words::story::Figure;
 use centrode_core::detect::Method;
 use centrode_core::detect::outlook::Outlook;
-use centrode_core::record::log::{Column, Commands};
+use centrode_core::record::log::chain::ChainColumn;
+use centrode_core::record::log::{Column, Commands, Format, Rate, Report};
 use centrode_core::run::Run;
 use centrode_core::scenario::text;
+use centrode_core::study::about::ChainAbout;
 use centrode_core::study::course::{has_plot, measure};
 
 /// What only a simulation knows.
@@ -101,12 +103,13 @@ pub fn figures(run: &Run) -> Vec<Figure> {
 /// A log in a line: how it is written, how long it is, how fast the loop ran.
 #[must_use]
 pub fn facts(recorded: &Recorded) -> String {
-    format!(
-        "{} · {} rows · loop at {} Hz",
-        recorded.log.format.name(),
-        recorded.about.report.rows,
-        text::number(recorded.about.loop_rate)
-    )
+    facts_of(recorded.log.format, recorded.about.report.rows, recorded.about.loop_rate)
+}
+
+/// The same by its parts; `loop_rate` in Hz.
+#[must_use]
+pub fn facts_of(format: Format, rows: u64, loop_rate: f64) -> String {
+    format!("{} · {rows} rows · loop at {} Hz", format.name(), text::number(loop_rate))
 }
 
 /// What a log lacks for the paper's detectors; empty for nothing.
@@ -120,29 +123,67 @@ pub fn missing(recorded: &Recorded) -> String {
 /// How a log was read, with everything that was dropped, held or left undefined.
 #[must_use]
 pub fn report(name: &str, recorded: &Recorded) -> Notice {
-    let row = |written: &str, why: String| Row { written: written.into(), why, used: String::new() };
-    let columns = &recorded.log.columns;
-    let used: Vec<String> = columns.iter().filter_map(Column::told).collect();
-    let unused: Vec<&str> =
-        columns.iter().filter(|column| column.role.is_none()).map(|column| column.header.as_str()).collect();
+    let about = &recorded.about;
+    let used: Vec<String> = recorded.log.columns.iter().filter_map(Column::told).collect();
     let mut rows = vec![row("Columns", used.join(", "))];
-    if !unused.is_empty() {
-        rows.push(row("Not used", unused.join(", ")));
-    }
-    let rate = format!("{} Hz: {}", text::number(recorded.about.loop_rate), recorded.about.loop_rate_from.told());
-    rows.extend([row("Loop", rate), row("Commands", recorded.about.commands.told().into())]);
-    for Outlook { detector, works, why } in &recorded.about.detectors {
+    rows.extend(unused(recorded.log.columns.iter()));
+    rows.push(rate(about.loop_rate, about.loop_rate_from));
+    rows.push(row("Commands", about.commands.told().into()));
+    for Outlook { detector, works, why } in &about.detectors {
         let how = if *works { "works" } else { "cannot work" };
         let why = if why.is_empty() { format!("It {how}.") } else { format!("It {how}: {why}.") };
         rows.push(row(measure(*detector).detector, why));
     }
-    let sentences: Vec<String> = recorded.about.report.sentences().collect();
+    rows.push(done(&about.report));
+    rows.push(row("Not known", NO_TRUTH.into()));
+    noticed(name, facts(recorded), rows)
+}
+
+/// How a log of several trackers was read, likewise.
+#[must_use]
+pub fn chain_report(name: &str, about: &ChainAbout) -> Notice {
+    let of = |segment: Option<usize>| {
+        let own = about.columns.iter().filter(|own| own.segment == segment);
+        own.filter_map(|own: &ChainColumn| own.column.told()).collect::<Vec<_>>().join(", ")
+    };
+    let mut rows: Vec<Row> = std::iter::once(("All segments".to_owned(), of(None)))
+        .chain((1..=about.commands.len()).map(|segment| (format!("Segment {segment}"), of(Some(segment)))))
+        .filter(|(_, told)| !told.is_empty())
+        .map(|(of, told)| row(&of, told))
+        .collect();
+    rows.extend(unused(about.columns.iter().map(|own| &own.column)));
+    rows.push(rate(about.loop_rate, about.loop_rate_from));
+    let commands = if about.commands.contains(&Commands::Log) { Commands::Log } else { Commands::Motion };
+    rows.push(row("Commands", commands.told().into()));
+    rows.push(done(&about.report));
+    rows.push(row("Not known", NO_TRUTH.into()));
+    noticed(name, facts_of(about.format, about.rows, about.loop_rate), rows)
+}
+
+fn row(written: &str, why: String) -> Row {
+    Row { written: written.into(), why, used: String::new() }
+}
+
+fn unused<'a>(columns: impl Iterator<Item = &'a Column>) -> Option<Row> {
+    let unused: Vec<&str> =
+        columns.filter(|column| column.role.is_none()).map(|column| column.header.as_str()).collect();
+    (!unused.is_empty()).then(|| row("Not used", unused.join(", ")))
+}
+
+fn rate(loop_rate: f64, from: Rate) -> Row {
+    row("Loop", format!("{} Hz: {}", text::number(loop_rate), from.told()))
+}
+
+fn done(report: &Report) -> Row {
+    let sentences: Vec<String> = report.sentences().collect();
     let done =
         if sentences.is_empty() { "Nothing was dropped, held or left undefined.".into() } else { sentences.join("\n") };
-    rows.push(row("What was done with the rows", done));
-    rows.push(row("Not known", NO_TRUTH.into()));
+    row("What was done with the rows", done)
+}
+
+fn noticed(name: &str, facts: String, rows: Vec<Row>) -> Notice {
     let title = format!("How {name} was read");
-    let text = format!("{}. Nothing was interpolated.", facts(recorded));
+    let text = format!("{facts}. Nothing was interpolated.");
     let listed: String = rows.iter().map(|Row { written, why, .. }| format!("{written}: {why}\n")).collect();
     Notice { details: format!("{title}\n{text}\n{listed}"), title, text, rows }
 }

@@ -11,7 +11,8 @@ impl Link {
     #[must_use]
     pub fn analyze(&self, log: &str, more: &[String]) -> String {
         let mut words = vec!["analyze".to_owned(), log.into()];
-        words.extend(self.scenario_words());
+        let several = self.page.view == page::CHAIN;
+        words.extend(if several { self.chain_words() } else { self.scenario_words() });
         words.extend_from_slice(more);
         command_line(&words)
     }
@@ -25,11 +26,11 @@ impl Link {
         words
     }
 
-    /// The command that runs several segments.
+    /// The flags that make several segments.
     fn chain_words(&self) -> Vec<String> {
         let opened = || ChainLink::of(CHAIN_NAMES[0]);
-        let Some(chain) = self.page.chain.clone().or_else(opened) else { return vec!["run".into()] };
-        let mut words = ["run", "--preset", chain.preset()].map(String::from).to_vec();
+        let Some(chain) = self.page.chain.clone().or_else(opened) else { return Vec::new() };
+        let mut words = ["--preset", chain.preset()].map(String::from).to_vec();
         for (key, value) in chain.changes() {
             words.extend(["--set".into(), format!("{key}={value}")]);
         }
@@ -42,7 +43,8 @@ impl Link {
     pub fn command(&self) -> String {
         let view = self.page.view;
         if view == page::CHAIN {
-            return command_line(&self.chain_words());
+            let run = std::iter::once("run".to_owned());
+            return command_line(&run.chain(self.chain_words()).collect::<Vec<_>>());
         }
         let figure = view.strip_prefix("figure-");
         let mut words: Vec<String> = match (figure, view) {
