@@ -46,7 +46,7 @@ fn plain(scenario: &Scenario) -> Option<Scenario> {
     }
     let samples = plain.motion.end * rate;
     plain.filter.length = plain.filter.length.clamp(2, 8);
-    (samples <= 600.0 && samples >= 20.0).then_some(plain)
+    (20.0..=600.0).contains(&samples).then_some(plain)
 }
 
 fn later(scenario: &Scenario) -> Scenario {
