@@ -41,13 +41,14 @@ impl Embed {
         Self::ALL.into_iter().find(|embed| embed.name() == name)
     }
 
-    /// The one stage that it shows; none when any can stand there.
+    /// The stage that it shows where a link names one.
     #[must_use]
-    pub fn stage(self) -> Option<Stage> {
+    pub fn stage(self, named: Stage) -> Stage {
         match self {
-            Self::Robot | Self::Plots => Some(Stage::Robot),
-            Self::Tuning => Some(Stage::Tuning),
-            Self::All => None,
+            Self::Robot | Self::Plots if named.is_run() => named,
+            Self::Robot | Self::Plots => Stage::Robot,
+            Self::Tuning => Stage::Tuning,
+            Self::All => named,
         }
     }
 
@@ -55,7 +56,7 @@ impl Embed {
     #[must_use]
     pub fn views(self) -> &'static [&'static str] {
         match self {
-            Self::Robot | Self::Plots => &["robot"],
+            Self::Robot | Self::Plots => &["robot", "chain"],
             Self::Tuning => &["tuning"],
             Self::All => VIEWS,
         }

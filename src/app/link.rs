@@ -10,7 +10,6 @@ use egui::Ui;
 use super::App;
 use crate::app::chain::ChainState;
 use crate::app::command::Share;
-use crate::app::embed::Embed;
 use crate::app::lesson::challenge::{self, CHALLENGES};
 use crate::app::lesson::{At, Wish};
 use crate::app::log::file::{File, is_log};
@@ -258,8 +257,8 @@ impl App {
         }
         self.state.theme = theme.and_then(ThemeChoice::named).unwrap_or(self.state.theme);
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
-        if let Some(only) = self.embed.and_then(Embed::stage) {
-            self.state.stage = only;
+        if let Some(embed) = self.embed {
+            self.state.stage = embed.stage(self.state.stage);
         }
         if self.state.stage.section() == Section::Paper {
             self.state.paper = self.state.stage;

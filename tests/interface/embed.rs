@@ -74,7 +74,7 @@ fn a_frame_shows_what_was_asked_for() {
             }
             let all = embed == Embed::All;
             let small = size.y < 240.0;
-            assert_eq!(app(&page).state().stage, embed.stage().unwrap_or_default());
+            assert_eq!(app(&page).state().stage, embed.stage(Stage::default()));
             assert!(!shown(&page, "Preset") && !shown(&page, "Share") && !shown(&page, "Help"), "{embed:?}");
             assert!(shown(&page, "Open in a page of its own"), "{embed:?} at {size}");
             assert_eq!(shown(&page, "Play"), embed != Embed::Tuning && (all || !small), "{embed:?} at {size}");
@@ -110,6 +110,21 @@ fn a_frame_keeps_its_one_view_and_opens_as_a_page_of_its_own() {
     let mut page = framed(vec2(640.0, 360.0), Embed::All, "preset=bench&view=map&t=1");
     let (answer, _) = ask(&mut page, json!({ "do": "set", "key": "view", "value": "tuning" }));
     assert_eq!(answer["state"]["view"], "tuning");
+}
+
+#[test]
+fn a_frame_shows_several_segments_where_its_link_names_them() {
+    for embed in [Embed::Robot, Embed::Plots] {
+        let size = vec2(640.0, 360.0);
+        let mut page = framed(size, embed, "view=chain&chain=two-contacts&t=8");
+        page.run_steps(2);
+        finish(&mut page);
+        assert_eq!(app(&page).state().stage, Stage::Chain);
+        fits(&page, size, embed.name());
+        let robot =
+            page.query_all_by_label_contains("θL 3").count() + page.query_all_by_label_contains("segment 3").count();
+        assert!(robot > 0, "{}", embed.name());
+    }
 }
 
 #[test]
