@@ -119,5 +119,5 @@ impl Chain {
 /// What the plots of every segment show: what was chosen of all that a run has.
 #[must_use]
 pub fn chosen(state: &ChainState, all: &[Shown]) -> Shown {
-    all.get(state.shown).or(all.first()).copied().unwrap_or(Shown::Bend)
+    all.get(state.shown).or(all.last()).copied().unwrap_or(Shown::Bend)
 }

@@ -81,7 +81,8 @@ pub fn plots(
     let segment = set.segment.min(count - 1);
     let ones: Vec<One> = if set.all {
         let shown = chosen(set, &all);
-        (0..count).map(|segment| One { segment, shown, by_segment: true }).collect()
+        let each = shown.is_of_each();
+        (0..if each { count } else { 1 }).map(|segment| One { segment, shown, by_segment: each }).collect()
     } else {
         all.iter().map(|shown| One { segment, shown: *shown, by_segment: false }).collect()
     };
@@ -152,6 +153,7 @@ fn short(name: &'static str) -> &'static str {
         "Screw axis distance" => "Axis distance",
         "Screw axis angle" => "Axis angle",
         "Tangent angle" => "θL",
+        "Stability margin" => "Margin",
         "Bending direction" => "δ",
         other => other,
     }
@@ -200,9 +202,14 @@ fn in_place(
                 true => {
                     format!("Segment {}: {} {}{behind}", one.segment + 1, measure.name.to_lowercase(), measure.symbol)
                 }
+                false if !one.shown.is_of_each() => measure.name.to_owned(),
                 false => format!("{} {short}", measure.name),
             };
-            let label = format!("Plot of segment {}: {} over time", one.segment + 1, measure.name.to_lowercase());
+            let label = if one.shown.is_of_each() {
+                format!("Plot of segment {}: {} over time", one.segment + 1, measure.name.to_lowercase())
+            } else {
+                format!("Plot of the {} over time", measure.name.to_lowercase())
+            };
             let readout =
                 ReadOut { name: "", value: number(value(cursor), measure.decimals), color, style: Style::Line };
             frame.title(&painter, &long, &short, &[readout]);

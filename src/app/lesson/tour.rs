@@ -261,7 +261,8 @@ pub static TOUR: [Step; STEPS] = [
         noticed: "Here it buckles. A rig would snap aside, and what a model of the plane says of it is no longer true. You have seen it all: try the challenges.",
         focus: Focus::Robot,
         controls: &[],
-        begin: || several("buckling", 4.0),
+        // What it shows last is its margin.
+        begin: || and(several("buckling", 4.0), [Some(Command::Chain(Wish::Plot(usize::MAX)))]),
         done: |seen| seen.chain.is_some_and(|memo| memo.gives_way() && seen.time >= memo.end() - 0.02),
     },
 ];

@@ -23,7 +23,12 @@ pub enum Shown {
     Bend,
     /// δ as commanded.
     Direction,
+    /// The stability margin of all segments together: 0 where the robot buckles.
+    Margin,
 }
+
+/// Below this a stability margin is worth showing.
+const NEAR: f64 = 0.5;
 
 impl Shown {
     /// Everything that a run has to show, in the order in which it is offered.
@@ -45,7 +50,16 @@ impl Shown {
         if run.recording.told.iter().any(turns) {
             all.push(Self::Direction);
         }
+        if run.recording.truth.iter().flatten().any(|truth| truth.margin < NEAR) {
+            all.push(Self::Margin);
+        }
         all
+    }
+
+    /// Whether it is of each segment, and not of all of them together.
+    #[must_use]
+    pub fn is_of_each(self) -> bool {
+        self != Self::Margin
     }
 
     /// How its values are called and shown.
@@ -74,6 +88,13 @@ impl Shown {
             Self::Turned => angle("Screw motion", "α", "Screw axis angle", "ξ_α", Role::Sensor),
             Self::Bend => angle("", "θ_L", "Tangent angle", "", Role::Robot),
             Self::Direction => angle("", "δ", "Bending direction", "", Role::Robot),
+            Self::Margin => Measure {
+                scale: 1.0,
+                si_unit: "1",
+                unit: "",
+                decimals: 2,
+                ..angle("", "margin", "Stability margin", "", Role::Robot)
+            },
         }
     }
 
@@ -85,7 +106,7 @@ impl Shown {
             Self::Judged(ChainMethod::Of(method)) => settings.segments.get(segment)?.thresholds.of(method).value(),
             Self::Judged(ChainMethod::Smd) => settings.smd.map(|smd| smd.distance),
             Self::Turned => settings.smd.map(|smd| smd.angle),
-            Self::Bend | Self::Direction => None,
+            Self::Bend | Self::Direction | Self::Margin => None,
         }
     }
 
@@ -101,6 +122,10 @@ impl Shown {
                 ChainMethod::Smd => Method::FcdConsistent.value(&judgement),
             }),
             Self::Turned => judgement(run, segment, sample).map_or(f64::NAN, |judgement| judgement.turned),
+            Self::Margin => {
+                let truth = run.recording.truth.as_ref().and_then(|truth| truth.get(sample));
+                truth.map_or(f64::NAN, |truth| truth.margin)
+            }
         }
     }
 
@@ -109,7 +134,7 @@ impl Shown {
         match self {
             Self::Judged(method) => Some(method),
             Self::Turned => Some(ChainMethod::Smd),
-            Self::Bend | Self::Direction => None,
+            Self::Bend | Self::Direction | Self::Margin => None,
         }
     }
 
@@ -118,7 +143,7 @@ impl Shown {
         let method = match self {
             Self::Judged(ChainMethod::Of(method)) => method,
             Self::Judged(ChainMethod::Smd) | Self::Turned => Method::FcdConsistent,
-            Self::Bend | Self::Direction => return true,
+            Self::Bend | Self::Direction | Self::Margin => return true,
         };
         let (Some(settings), Some(judgement)) =
             (run.judged.settings.segments.get(segment), judgement(run, segment, sample))
@@ -134,6 +159,9 @@ impl Shown {
     /// The values between which its panels reach, SI: the same on all segments.
     #[must_use]
     pub fn range(self, run: &ChainRun) -> [f64; 2] {
+        if self == Self::Margin {
+            return [0.0, 1.05];
+        }
         let segments = 0..run.recording.segments();
         let samples = || 0..run.recording.times.len();
         let all = segments.flat_map(|segment| samples().map(move |sample| (segment, sample)));
@@ -162,7 +190,7 @@ impl Shown {
         } else {
             Axis { range: Some(ends), steps: Steps::Decimal, ..Axis::new(symbol, si_unit, unit, scale) }
         };
-        let mut panel = Panel { title: name.into(), off_scale: !angle, ..Panel::new(x, y) };
+        let mut panel = Panel { title: name.into(), off_scale: !angle && self.is_of_each(), ..Panel::new(x, y) };
         panel.verticals.extend(given_way(run));
         let ends = held(run, segment);
         panel.spans.extend(ends.into_iter().map(|ends| Span { name: "contact", role: Role::Contact, low: true, ends }));

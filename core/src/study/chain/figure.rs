@@ -47,15 +47,15 @@ fn forces(run: &ChainRun) -> Option<Panel> {
     (largest > 0.0).then_some(panel)
 }
 
-/// The stability margin, where it ever falls below half.
+/// The stability margin, where it is worth showing.
 fn margin(run: &ChainRun) -> Option<Panel> {
-    let truth = run.recording.truth.as_ref()?;
-    let least = truth.iter().map(|truth| truth.margin).fold(1.0, f64::min);
-    let points = run.recording.times.iter().zip(truth).map(|(time, truth)| [*time, truth.margin]).collect();
+    let shown = Shown::all(run).contains(&Shown::Margin);
+    let value = |(sample, time): (usize, &f64)| [*time, Shown::Margin.value(run, 0, sample)];
+    let points = run.recording.times.iter().enumerate().map(value).collect();
     let y = Axis { range: Some([0.0, 1.05]), ..Axis::new("Stability margin", "1", "1", 1.0) };
     let mut panel = timed(run, "Stability margin, 0 where the robot buckles", y);
     panel.series.push(Series::new("margin", Role::Robot, Style::Line, points));
-    (least < 0.5).then_some(panel)
+    shown.then_some(panel)
 }
 
 /// What the run was made with.
