@@ -28,12 +28,15 @@ mod core;
 mod detectors;
 mod elements;
 mod embed;
+mod engines;
 mod failures;
 #[allow(dead_code, unused_imports, reason = "a harness for tests to come, and for the pictures")]
 mod harness;
 mod lesson;
 mod links;
 mod logs;
+mod lost;
+mod memory;
 mod paper;
 mod phone;
 mod saving;

@@ -8,6 +8,7 @@ mod contact;
 mod detectors;
 mod embed;
 mod gallery;
+mod going_on;
 mod keyboard;
 mod lesson;
 mod links;

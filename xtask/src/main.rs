@@ -3,6 +3,8 @@
 //! Run as `cargo xtask COMMAND`.
 
 mod build;
+mod engines;
+mod foreign;
 mod licence;
 #[cfg(test)]
 mod light;
