@@ -300,7 +300,13 @@ impl Page {
 
     /// Waits for the next two frames, in which the interface has taken in what was done.
     pub fn frames(&mut self) {
-        self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))");
+        let frames = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))";
+        if let Browser::Chromium(_) = self.browser {
+            self.eval(frames);
+        } else {
+            // Firefox drops a frame that was asked for just as a canvas on WebGPU went; who waits for a state asks again anyway.
+            self.eval(&format!("Promise.race([{frames}, new Promise(done => setTimeout(done, 3000, 0))])"));
+        }
     }
 
     /// What the page looks like now, in device pixels.
