@@ -1,5 +1,6 @@
 //! Segments in series (docs/CHAIN.md): one configuration of them, as `centrode model --chain` reads it, and whole experiments.
 
+mod draft;
 mod group;
 mod inputs;
 mod plan;
@@ -19,6 +20,7 @@ use std::fmt;
 use thiserror::Error;
 use toml::de::DeTable;
 
+pub use draft::{ChainDraft, Change};
 pub use inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Stands, Tracked};
 pub use plan::ChainPlan;
 

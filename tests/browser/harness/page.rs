@@ -285,7 +285,9 @@ impl Page {
     /// All widgets. The page must have been opened with `?test`.
     #[track_caller]
     pub fn widgets(&mut self) -> Vec<Widget> {
-        let json = self.eval("centrode.widgets()");
+        let json = self.eval(
+            "(canvas => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))",
+        );
         serde_json::from_str(json.as_str().unwrap_or_default()).expect("a list of widgets")
     }
 

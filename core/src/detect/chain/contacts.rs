@@ -155,7 +155,9 @@ impl ChainJudged {
         Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, began })
     }
 
-    fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
+    /// What is known of one of the contacts that a detector tells of, so long after its alarm (s); none where the run ends before, or nothing is.
+    #[must_use]
+    pub fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
         let time = contact.alarm + after;
         if self.relative.first()?.entries.last()?.time < time {
             return None;
