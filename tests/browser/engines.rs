@@ -4,7 +4,7 @@
 
 use crate::harness::host::{Host, built, heard};
 use crate::harness::{Engine, Options, Page, Renderer};
-use crate::{core, failures, links, lost, start, tuning};
+use crate::{core, failures, links, lost, start, storm, tuning};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
@@ -12,12 +12,13 @@ use std::time::Instant;
 type Check = (&'static str, &'static str, fn(&mut Page));
 
 /// The first opens a page that nobody has opened before.
-const CHECKS: [Check; 8] = [
+const CHECKS: [Check; 9] = [
     ("pictures change as it plays", "?test", core::the_view_moves_with_playback),
     ("a slider moves the detection to the command's", "?test", core::dragging_the_contact_slider_moves_the_detection),
     ("the worker's study is the command's", "?test", tuning::a_study_has_the_commands_numbers),
     ("a link is replayed to the same bits", "?test", links::a_link_is_replayed_to_the_last_bit),
     ("files are opened and saved", links::BENCH, links::files_are_opened_and_saved),
+    ("a storm of input is weathered", "?test", storm::a_storm_of_input),
     ("lost graphics come back", lost::STATE, lost::lost_graphics_come_back),
     ("a panic keeps what is set", lost::STATE, failures::a_panic_keeps_what_is_set),
     ("everything computed has the stored bits", "?test", core::the_stored_fingerprints_are_computed),

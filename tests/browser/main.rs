@@ -41,5 +41,6 @@ mod paper;
 mod phone;
 mod saving;
 mod start;
+mod storm;
 mod theory;
 mod tuning;

@@ -8,7 +8,7 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
-use std::net::TcpListener;
+use std::net::{TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -36,44 +36,65 @@ const FIREFOX: &str = "user_pref('marionette.port', 0);\n\
     user_pref('browser.startup.homepage_override.mstone', 'ignore');\n\
     user_pref('datareporting.policy.dataSubmissionEnabled', false);\n";
 
+/// How often a browser may fail to start before that is a failure: a busy machine starts one too late, or has given its port away.
+const STARTS: usize = 3;
+
 /// A running browser with one window.
 pub struct Driven {
     wire: Wire,
-    processes: Vec<Child>,
+    processes: Processes,
+}
+
+/// What runs for a browser, and the folder of what it writes: both go with it.
+struct Processes {
+    list: Vec<Child>,
     folder: PathBuf,
 }
 
 impl Driven {
     /// Starts a browser that keeps nothing of earlier ones.
     pub fn start(engine: Engine, renderer: Renderer) -> Self {
+        let mut errors = Vec::new();
+        while errors.len() < STARTS {
+            match Self::begun(engine, renderer) {
+                Ok(driven) => return driven,
+                Err(error) => errors.push(error),
+            }
+        }
+        panic!("{engine:?} does not start: {errors:#?}");
+    }
+
+    fn begun(engine: Engine, renderer: Renderer) -> Result<Self, String> {
         static COUNT: AtomicU32 = AtomicU32::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
         let folder = std::env::temp_dir().join(format!("centrode-{engine:?}-{}-{count}", std::process::id()));
         fs::create_dir_all(&folder).expect("a folder for the browser");
-        let (screen, display) = screen();
-        let mut processes = vec![screen];
-        let mut wire = match engine {
+        let mut processes = Processes { list: Vec::new(), folder: folder.clone() };
+        let display = screen(&mut processes)?;
+        let wire = match engine {
             Engine::Firefox => {
-                processes.push(firefox(&folder, &display, renderer));
-                Wire::socket(announced(&folder)).expect("Firefox listens")
+                processes.list.push(firefox(&folder, &display, renderer));
+                let port = announced(&mut processes)?;
+                Wire::socket(port).map_err(|error| format!("its socket: {error}"))
             }
             Engine::WebKit => {
                 let port = free_port();
-                processes.push(webkit(&folder, &display, port));
-                Wire::http(port)
+                processes.list.push(webkit(&folder, &display, port));
+                listens(&mut processes, port).map(|()| Wire::http(port))
             }
         };
-        let capabilities = capabilities(engine, renderer);
-        wire.begin(&capabilities)
-            .unwrap_or_else(|error| panic!("{engine:?} does not start: {error}\n{}", log(&folder)));
-        Self { wire, processes, folder }
+        let begun = wire.and_then(|mut wire| wire.begin(&capabilities(engine, renderer)).map(|()| wire));
+        match begun {
+            Ok(wire) => Ok(Self { wire, processes }),
+            Err(error) => Err(format!("{error}\n{}", log(&folder))),
+        }
     }
 
     #[track_caller]
     fn call(&mut self, command: Do, parameters: Value) -> Value {
         self.wire
             .call(command, parameters)
-            .unwrap_or_else(|error| panic!("{command:?}: {error}\n{}", log(&self.folder)))
+            .unwrap_or_else(|error| panic!("{command:?}: {error}\n{}", log(&self.processes.folder)))
     }
 
     /// Goes to an address and waits for nothing.
@@ -93,9 +114,9 @@ impl Driven {
         let mut answer = loop {
             match self.wire.call(Do::Run, json!({ "script": script, "args": [] })) {
                 Ok(answer) => break answer,
-                Err(error) if start.elapsed() > START => panic!("{script}: {error}\n{}", log(&self.folder)),
+                Err(error) if start.elapsed() > START => panic!("{script}: {error}\n{}", log(&self.processes.folder)),
                 Err(error) if is_between_pages(&error) => thread::sleep(Duration::from_millis(50)),
-                Err(error) => panic!("{script}: {error}\n{}", log(&self.folder)),
+                Err(error) => panic!("{script}: {error}\n{}", log(&self.processes.folder)),
             }
         };
         assert!(answer["error"].is_null(), "{script}: {}", answer["error"]);
@@ -140,8 +161,33 @@ impl Driven {
 impl Drop for Driven {
     fn drop(&mut self) {
         self.wire.call(Do::End, json!({})).ok();
+    }
+}
+
+impl Processes {
+    /// Waits until the last one is ready, as `ask` says, unless it ends before or takes too long.
+    fn wait<T>(&mut self, what: &str, mut ask: impl FnMut(&Path) -> Option<T>) -> Result<T, String> {
+        let start = Instant::now();
+        loop {
+            if let Some(answer) = ask(&self.folder) {
+                return Ok(answer);
+            }
+            let ended = self.list.last_mut().and_then(|process| process.try_wait().ok().flatten());
+            if let Some(status) = ended {
+                return Err(format!("{what}: it ended with {status}\n{}", log(&self.folder)));
+            }
+            if start.elapsed() > START {
+                return Err(format!("{what}: waited in vain\n{}", log(&self.folder)));
+            }
+            thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+impl Drop for Processes {
+    fn drop(&mut self) {
         // The browser before the screen that it draws on.
-        for process in self.processes.iter_mut().rev() {
+        for process in self.list.iter_mut().rev() {
             Command::new("kill").arg(process.id().to_string()).status().ok();
             let start = Instant::now();
             while process.try_wait().is_ok_and(|status| status.is_none()) && start.elapsed() < Duration::from_secs(10) {
@@ -160,8 +206,8 @@ fn is_between_pages(error: &str) -> bool {
         .any(|words| error.starts_with(words))
 }
 
-/// A screen in memory, and its name.
-fn screen() -> (Child, String) {
+/// Starts a screen in memory, and gives its name.
+fn screen(processes: &mut Processes) -> Result<String, String> {
     let mut server = Command::new("Xvfb")
         .args(["-displayfd", "1", "-screen", "0", "1600x1100x24", "+extension", "GLX", "-nolisten", "tcp"])
         .stdin(Stdio::null())
@@ -169,9 +215,14 @@ fn screen() -> (Child, String) {
         .stderr(Stdio::null())
         .spawn()
         .unwrap_or_else(|error| panic!("cannot start Xvfb: {error}"));
+    let said = server.stdout.take().expect("piped");
+    processes.list.push(server);
     let mut name = String::new();
-    BufReader::new(server.stdout.take().expect("piped")).read_line(&mut name).expect("Xvfb names its screen");
-    (server, format!(":{}", name.trim()))
+    match BufReader::new(said).read_line(&mut name) {
+        Ok(length) if length > 0 => Ok(format!(":{}", name.trim())),
+        // Two that start at once may both want one number.
+        other => Err(format!("Xvfb names no screen: {other:?}")),
+    }
 }
 
 /// A program on a screen, with its words in the log of `folder`.
@@ -205,30 +256,22 @@ fn firefox(folder: &Path, display: &str, renderer: Renderer) -> Child {
 }
 
 /// The port that Firefox writes into its profile once it listens there.
-fn announced(folder: &Path) -> u16 {
-    let start = Instant::now();
-    loop {
-        let text = fs::read_to_string(folder.join("MarionetteActivePort")).unwrap_or_default();
-        if let Ok(port) = text.trim().parse() {
-            return port;
-        }
-        assert!(start.elapsed() < START, "Firefox does not listen\n{}", log(folder));
-        thread::sleep(Duration::from_millis(20));
-    }
+fn announced(processes: &mut Processes) -> Result<u16, String> {
+    processes.wait("Firefox listens", |folder| {
+        fs::read_to_string(folder.join("MarionetteActivePort")).unwrap_or_default().trim().parse().ok()
+    })
 }
 
 fn webkit(folder: &Path, display: &str, port: u16) -> Child {
     let program = std::env::var("CENTRODE_WEBKIT").unwrap_or_else(|_| "WebKitWebDriver".into());
-    let driver = on_screen(&program, display, folder)
+    on_screen(&program, display, folder)
         .args(["--host=127.0.0.1", &format!("--port={port}")])
         .spawn()
-        .unwrap_or_else(|error| panic!("cannot start {program}: {error}"));
-    let start = Instant::now();
-    while std::net::TcpStream::connect(("127.0.0.1", port)).is_err() {
-        assert!(start.elapsed() < START, "{program} does not listen\n{}", log(folder));
-        thread::sleep(Duration::from_millis(20));
-    }
-    driver
+        .unwrap_or_else(|error| panic!("cannot start {program}: {error}"))
+}
+
+fn listens(processes: &mut Processes, port: u16) -> Result<(), String> {
+    processes.wait("the driver listens", |_| TcpStream::connect(("127.0.0.1", port)).ok().map(drop))
 }
 
 fn free_port() -> u16 {

@@ -7,8 +7,13 @@ impl Page {
     /// Clicks in the middle of a widget.
     #[track_caller]
     pub fn click(&mut self, role: &str, label: &str) {
-        let widget = self.widget(role, label);
-        let at = widget.at(0.5);
+        let at = self.widget(role, label).at(0.5);
+        self.click_at(at);
+    }
+
+    /// Clicks at a place of the page, in CSS pixels.
+    #[track_caller]
+    pub fn click_at(&mut self, at: [f64; 2]) {
         if let Browser::Driven(driven) = &mut self.browser {
             // All at once: what comes between would make a long press of it.
             driven.mouse(&[

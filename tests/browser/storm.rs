@@ -1,0 +1,216 @@
+//! A storm of random input: whatever is clicked, dragged, typed and resized, the page keeps running, what stands beside the canvas for
+//! screen readers says what is on it, and the address holds the run that is shown.
+//!
+//! The same seed makes the same choices. `CENTRODE_STORM=7 cargo xtask test --dev browser -- engines::` makes another storm than usual.
+
+use crate::harness::{Page, Widget};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+
+/// How much is done.
+const ACTIONS: usize = 60;
+/// A seed as good as any.
+const SEED: u64 = 15;
+const SIZES: [[u32; 2]; 4] = [[1280, 800], [1000, 640], [640, 900], [1400, 960]];
+const KEYS: [&str; 20] = [
+    "Tab",
+    "ShiftTab",
+    "Enter",
+    "Escape",
+    "ArrowLeft",
+    "ArrowRight",
+    "ArrowUp",
+    "ArrowDown",
+    "Home",
+    "End",
+    "PageUp",
+    "PageDown",
+    " ",
+    "a",
+    "b",
+    "c",
+    "m",
+    "s",
+    "0",
+    "?",
+];
+const TEXTS: [&str; 8] = ["3", "-1", "1e9", "0.5", "", "abc", "12,5", "NaN"];
+
+/// What would open a window of the browser's own, or leave the page.
+const SHELTER: &str = "(() => { window.open = () => null; HTMLAnchorElement.prototype.click = () => {}; \
+    HTMLInputElement.prototype.click = function () { if (this.type !== 'file') this.dispatchEvent(new Event('click')); }; \
+    return 1; })()";
+
+/// What plays would be another value a moment later.
+const PAUSE: &str =
+    "[...document.querySelectorAll('#elements button')].find((node) => node.textContent === 'Pause')?.click()";
+
+/// Numbers that a seed determines (SplitMix64).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// From 0 to 1.
+    fn fraction(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn one_of<'a, T>(&mut self, all: &'a [T]) -> &'a T {
+        &all[self.next() as usize % all.len()]
+    }
+}
+
+#[track_caller]
+pub fn a_storm_of_input(page: &mut Page) {
+    let seed = std::env::var("CENTRODE_STORM").map_or(SEED, |text| text.parse().expect("a whole number"));
+    println!("the seed of this storm: {seed}");
+    page.eval(SHELTER);
+    let mut dice = Dice(seed);
+    let mut done = Vec::new();
+    for _ in 0..ACTIONS {
+        done.push(act(page, &mut dice));
+        assert_eq!(page.shown(), "running", "after {done:#?}: {}", page.text("#failed"));
+        assert_eq!(page.problems(), Vec::<String>::new(), "after {done:#?}");
+    }
+    resize(page, SIZES[0]);
+    // Whatever is open.
+    for _ in 0..3 {
+        page.press("Escape");
+        page.frames();
+    }
+    page.eval(PAUSE);
+    println!("what was done: {done:?}");
+    page.wait("the elements to say what the canvas shows", |page| {
+        let (said, shown) = (said(page), shown(page));
+        let known = said.iter().all(|(name, value)| shown.get(name) == Some(value));
+        (said.len() > 10 && known).then_some(())
+    });
+    page.wait("the run of the address", |page| {
+        page.eval(
+            "location.hash.includes('chain=') || centrode.shown_fingerprint() === centrode.link_fingerprint(location.href)",
+        )
+        .as_bool()
+        .filter(|same| *same)
+    });
+    assert_eq!(page.problems(), Vec::<String>::new(), "after {done:#?}");
+}
+
+/// Does something; tells what.
+#[track_caller]
+fn act(page: &mut Page, dice: &mut Dice) -> String {
+    match dice.next() % 20 {
+        0..8 => {
+            let (name, at) = somewhere(page, dice, true);
+            page.click_at(at);
+            format!("click {name}")
+        }
+        8..11 => {
+            let (name, at) = somewhere(page, dice, false);
+            page.click_at(at);
+            format!("click {name}")
+        }
+        11..14 => {
+            let (from, start) = somewhere(page, dice, true);
+            let (to, end) = somewhere(page, dice, false);
+            for (what, at) in
+                [("mouseMoved", start), ("mousePressed", start), ("mouseMoved", end), ("mouseReleased", end)]
+            {
+                page.mouse(what, at);
+            }
+            page.frames();
+            format!("drag {from} to {to}")
+        }
+        14..17 => {
+            let key = *dice.one_of(&KEYS);
+            page.press(key);
+            page.frames();
+            format!("press {key:?}")
+        }
+        17..19 => {
+            let text = *dice.one_of(&TEXTS);
+            if page.eval("document.activeElement?.tagName === 'INPUT' && document.activeElement.type === 'text'")
+                == true
+            {
+                page.insert(text);
+                page.press("Enter");
+            }
+            format!("type {text:?}")
+        }
+        _ => {
+            let size = *dice.one_of(&SIZES);
+            resize(page, size);
+            format!("size {size:?}")
+        }
+    }
+}
+
+#[track_caller]
+fn resize(page: &mut Page, size: [u32; 2]) {
+    page.resize(size);
+    page.wait("the size", |page| (page.eval("[innerWidth, innerHeight]") == json!(size)).then_some(()));
+    page.frames();
+}
+
+/// A place on the page, of a widget that a person can work if `widget`, and what is there.
+#[track_caller]
+fn somewhere(page: &mut Page, dice: &mut Dice, widget: bool) -> (String, [f64; 2]) {
+    const WORKED: [&str; 9] =
+        ["Button", "Slider", "CheckBox", "RadioButton", "TextInput", "SpinButton", "ComboBox", "MenuItem", "Tab"];
+    let size: [f64; 2] = serde_json::from_value(page.eval("[innerWidth, innerHeight]")).expect("a size");
+    let is_in = |[x, y]: [f64; 2]| x >= 0.0 && y >= 0.0 && x < size[0] - 1.0 && y < size[1] - 1.0;
+    let fraction = dice.fraction();
+    let places: Vec<(String, [f64; 2])> = page
+        .widgets()
+        .into_iter()
+        .filter(|widget| WORKED.contains(&widget.role.as_str()) && !widget.disabled && widget.bounds.is_some())
+        .map(|widget| (format!("{} {:?}", widget.role, widget.label), widget.at(fraction)))
+        .filter(|(_, at)| is_in(*at))
+        .collect();
+    if widget && !places.is_empty() {
+        return dice.one_of(&places).clone();
+    }
+    let at = [fraction * (size[0] - 2.0), dice.fraction() * (size[1] - 2.0)].map(f64::floor);
+    (format!("{at:?}"), at)
+}
+
+/// Values by role and name; where several have one name, the last of them.
+type Values = BTreeMap<(String, String), String>;
+
+/// What the elements say.
+fn said(page: &mut Page) -> Values {
+    let all = page.eval(
+        "[...document.querySelectorAll('#elements input')].map((node) => [node.dataset.kind, node.getAttribute('aria-label') ?? '', \
+         node.dataset.kind === 'slider' ? Number(node.value) : node.checked])",
+    );
+    let all: Vec<(String, String, Value)> = serde_json::from_value(all).expect("a list");
+    let role = |kind: &str| match kind {
+        "slider" => Some("Slider"),
+        "check" => Some("CheckBox"),
+        "radio" => Some("RadioButton"),
+        _ => None,
+    };
+    all.into_iter()
+        .filter_map(|(kind, name, value)| {
+            Some(((role(&kind)?.to_owned(), name), text(value.as_f64(), value.as_bool())))
+        })
+        .collect()
+}
+
+/// What the canvas shows.
+fn shown(page: &mut Page) -> Values {
+    let value =
+        |widget: &Widget| text(widget.number.filter(|_| widget.role == "Slider"), Some(widget.on == Some(true)));
+    page.widgets().into_iter().map(|widget| ((widget.role.clone(), widget.label.clone()), value(&widget))).collect()
+}
+
+/// A number as far as an element of the browser's keeps it.
+fn text(number: Option<f64>, on: Option<bool>) -> String {
+    number.map_or_else(|| format!("{}", on == Some(true)), |number| format!("{number:.6e}"))
+}
