@@ -1,6 +1,6 @@
 //! What must hold in each engine, on whatever it draws with. A row of tests runs in one browser: it is the start that costs.
 //!
-//! What came of each row goes to the folder `CENTRODE_ROWS`, of which `cargo xtask test browser` makes a table.
+//! `CENTRODE_CHECK=storm` makes those alone whose name has this in it. What came of each row goes to the folder `CENTRODE_ROWS`, of which `cargo xtask test browser` makes a table.
 
 use crate::harness::host::{Host, built, heard};
 use crate::harness::{Engine, Options, Page, Renderer};
@@ -63,7 +63,11 @@ fn row(engine: Option<Engine>, renderer: Renderer) {
     let mut page = browser(engine, renderer);
     let mut failed = Vec::new();
     let mut check = |name: &'static str, made: &mut dyn FnMut(&mut Page)| {
-        if catch_unwind(AssertUnwindSafe(|| made(&mut page))).is_err() {
+        let start = Instant::now();
+        let passed = catch_unwind(AssertUnwindSafe(|| made(&mut page))).is_ok();
+        let (word, seconds) = (if passed { "ok" } else { "FAILED" }, start.elapsed().as_secs());
+        println!("{} {renderer:?}: {name}: {word}, {seconds} s", name_of(engine));
+        if !passed {
             failed.push(name);
         }
     };
@@ -74,7 +78,8 @@ fn row(engine: Option<Engine>, renderer: Renderer) {
         });
     } else {
         check("the page starts", &mut |page| starts(page, &host, renderer));
-        for (name, query, made) in CHECKS {
+        let wanted = std::env::var("CENTRODE_CHECK").unwrap_or_default();
+        for (name, query, made) in CHECKS.into_iter().filter(|(name, ..)| name.contains(&wanted)) {
             check(name, &mut |page| {
                 open(page, &host, query);
                 made(page);
@@ -86,11 +91,14 @@ fn row(engine: Option<Engine>, renderer: Renderer) {
     assert!(failed.is_empty(), "{failed:?}");
 }
 
+fn name_of(engine: Option<Engine>) -> String {
+    engine.map_or("Chromium".to_owned(), |engine| format!("{engine:?}"))
+}
+
 /// Keeps what came of a row.
 fn note(engine: Option<Engine>, renderer: Renderer, result: &str) {
     let Some(folder) = std::env::var_os("CENTRODE_ROWS") else { return };
-    let engine = engine.map_or("Chromium".to_owned(), |engine| format!("{engine:?}"));
-    let file = std::path::PathBuf::from(folder).join(format!("{engine} {renderer:?}"));
+    let file = std::path::PathBuf::from(folder).join(format!("{} {renderer:?}", name_of(engine)));
     std::fs::write(file, result).expect("the row is kept");
 }
 

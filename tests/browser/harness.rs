@@ -11,5 +11,5 @@ mod wire;
 
 pub use chromium::Renderer;
 pub use driven::Engine;
-pub use page::{Options, Page, Widget};
+pub use page::{Options, Page, WIDGETS, Widget};
 pub use picture::{Area, Picture};

@@ -18,6 +18,9 @@ use std::time::{Duration, Instant};
 /// A browser that takes longer to start does not start.
 const START: Duration = Duration::from_secs(60);
 
+/// WebDriver's character for it.
+const CONTROL: &str = "\u{E009}";
+
 /// Whose browser it is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Engine {
@@ -137,6 +140,15 @@ impl Driven {
         let stroke =
             |key: String| [json!({ "type": "keyDown", "value": key }), json!({ "type": "keyUp", "value": key })];
         let actions: Vec<Value> = keys.into_iter().flat_map(stroke).collect();
+        self.call(Do::Act, json!({ "actions": [{ "type": "key", "id": "keyboard", "actions": actions }] }));
+    }
+
+    /// Selects all of the text that the keyboard is in.
+    #[track_caller]
+    pub fn select_all(&mut self) {
+        let actions: Vec<Value> = [("keyDown", CONTROL), ("keyDown", "a"), ("keyUp", "a"), ("keyUp", CONTROL)]
+            .map(|(what, key)| json!({ "type": what, "value": key }))
+            .into();
         self.call(Do::Act, json!({ "actions": [{ "type": "key", "id": "keyboard", "actions": actions }] }));
     }
 

@@ -57,6 +57,10 @@ impl Page {
         self.wait("the field to take text", |page| {
             (page.eval("document.activeElement?.tagName") == "INPUT").then_some(())
         });
+        if let Browser::Driven(driven) = &mut self.browser {
+            // A click that lasts for several slow frames has become a drag in the text.
+            driven.select_all();
+        }
         self.insert(text);
         self.key("Enter");
     }

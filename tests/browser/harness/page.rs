@@ -63,6 +63,9 @@ pub struct Widget {
     pub bounds: Option<[f64; 4]>,
 }
 
+/// All widgets as JSON, for JavaScript.
+pub const WIDGETS: &str = "((canvas) => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))";
+
 /// Who shows the page.
 pub(super) enum Browser {
     Chromium(Box<Chromium>),
@@ -285,9 +288,7 @@ impl Page {
     /// All widgets. The page must have been opened with `?test`.
     #[track_caller]
     pub fn widgets(&mut self) -> Vec<Widget> {
-        let json = self.eval(
-            "(canvas => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))",
-        );
+        let json = self.eval(WIDGETS);
         serde_json::from_str(json.as_str().unwrap_or_default()).expect("a list of widgets")
     }
 
