@@ -1,6 +1,7 @@
 //! What must hold in each engine, on whatever it draws with. A row of tests runs in one browser: it is the start that costs.
 //!
-//! `CENTRODE_CHECK=storm` makes those alone whose name has this in it. What came of each row goes to the folder `CENTRODE_ROWS`, of which `cargo xtask test browser` makes a table.
+//! `CENTRODE_CHECK=storm` makes those alone whose name has this in it. What came of each row goes to the folder `CENTRODE_ROWS`, of
+//! which `cargo xtask test browser` makes a table.
 
 use crate::harness::host::{Host, built, heard};
 use crate::harness::{Engine, Options, Page, Renderer};
