@@ -8,7 +8,7 @@ use serde_json::json;
 use std::collections::BTreeSet;
 
 /// How much is done.
-const ACTIONS: usize = 40;
+const ACTIONS: usize = 25;
 /// A seed as good as any.
 const SEED: u64 = 15;
 const SIZES: [[u32; 2]; 4] = [[1280, 800], [1000, 640], [640, 900], [1400, 960]];
