@@ -3,8 +3,8 @@
 use crate::harness::{Options, Page, Renderer};
 use serde_json::{Value, json};
 
-/// By so much the program's memory may have grown: the letters' texture grows by 2 MiB at once. A run kept for each thing done would take
-/// many times as much.
+/// By so much the program's memory may have grown, bytes: on WebGL it was 2 MiB, at once. A run kept for each thing done would take many
+/// times as much.
 const MOST: u64 = 4 << 20;
 
 /// Counts what WebGL is asked to make and not to delete, but for fences, some of which are always on their way.
