@@ -63,6 +63,8 @@ use state::State;
 
 /// The longest step of playback, s: after a pause of the whole page the cursor does not leap.
 const LONGEST_STEP: f64 = 0.25;
+/// The longest press that is a click, s. Slow hands, and a page that is slow to draw, take longer than egui's 0.8 s.
+const LONGEST_CLICK: f64 = 3.0;
 /// What is lower than this in a sheet that is hardly drawn out is not shown, points.
 const SEEN: f32 = 24.0;
 
@@ -118,12 +120,8 @@ impl App {
     /// A page that opens playing, unless its link says where to stand. Without a render state there is no 3D view.
     #[must_use]
     pub fn new(ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>, host: Host) -> Self {
-        theme::install(ctx);
-        if host.prefers_reduced_motion {
-            theme::hold_still(ctx);
-        }
         let state = State::default();
-        ctx.set_theme(state.theme.preference());
+        dress(ctx, &state, host.prefers_reduced_motion);
         let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
         let [helper, other] = Lent::two(host.helper);
         let mut app = Self {
@@ -155,6 +153,14 @@ impl App {
         app.state.playing = host.embed != Some(Embed::Tuning) && !host.prefers_reduced_motion;
         app.go(&host.fragment);
         app
+    }
+
+    /// Goes on as it is in another context, with another render state: those before are gone, and what they held with them.
+    pub fn go_on_in(&mut self, ctx: &egui::Context, render_state: Option<&egui_wgpu::RenderState>) {
+        dress(ctx, &self.state, self.prefers_reduced_motion);
+        if let Some(name) = self.view.draw_with(render_state) {
+            self.not_saved(&name, "The graphics were lost before it was drawn.");
+        }
     }
 
     /// What is set.
@@ -318,6 +324,16 @@ impl App {
             self.state.playing = false;
         }
     }
+}
+
+/// Gives a context the page's looks and manners.
+fn dress(ctx: &egui::Context, state: &State, still: bool) {
+    theme::install(ctx);
+    if still {
+        theme::hold_still(ctx);
+    }
+    ctx.set_theme(state.theme.preference());
+    ctx.options_mut(|options| options.input_options.max_click_duration = LONGEST_CLICK);
 }
 
 #[cfg(test)]

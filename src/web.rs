@@ -63,6 +63,9 @@ extern "C" {
     /// A study is wanted from the worker (JSON), or none any more.
     #[wasm_bindgen(method)]
     fn study(this: &Hooks, request: Option<String>);
+    /// Another worker is to take the place of the one that makes studies; whether one does.
+    #[wasm_bindgen(method, js_name = replaceWorker)]
+    fn replace_worker(this: &Hooks) -> bool;
     /// The address has this fragment from now on; whether one can go back to what was before.
     #[wasm_bindgen(method)]
     fn address(this: &Hooks, fragment: &str, step: bool);
@@ -102,12 +105,21 @@ extern "C" {
     /// The program panicked and will not go on.
     #[wasm_bindgen(method)]
     fn panicked(this: &Hooks, message: &str);
-    /// The graphics device is gone and will not come back.
+    /// The graphics device is gone and will not come back: [`set_aside`], and [`start`] on a fresh canvas.
     #[wasm_bindgen(method)]
     fn lost(this: &Hooks, message: &str);
 }
 
+/// The longest press that is a click in a page opened by a test, s.
+const TEST_CLICK: f64 = 600.0;
+
+/// The interface while nothing draws it, with what egui remembers of it.
+type Aside = (App, egui::Memory);
+
 thread_local! {
+    static ASIDE: RefCell<Option<Aside>> = const { RefCell::new(None) };
+    /// Which device draws, counted from the first: what is heard of an earlier one is of no concern.
+    static DEVICE: Cell<u32> = const { Cell::new(0) };
     static RUNNER: RefCell<Option<eframe::WebRunner>> = const { RefCell::new(None) };
     static HOOKS: RefCell<Option<Hooks>> = const { RefCell::new(None) };
     static TEST: Cell<bool> = const { Cell::new(false) };
@@ -165,11 +177,39 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         if let Some(state) = &cc.wgpu_render_state {
             name_out.set(watch(state));
         }
-        let app = App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), host);
-        Ok(Box::new(Shell { app, last_report: String::new() }) as Box<dyn eframe::App>)
+        let app = match ASIDE.take() {
+            Some(aside) => taken_up(aside, cc),
+            None => App::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), host),
+        };
+        if TEST.get() {
+            // On a busy machine a frame may come between press and release that takes longer than any hand.
+            cc.egui_ctx.options_mut(|options| options.input_options.max_click_duration = TEST_CLICK);
+        }
+        Ok(Box::new(Shell { app: Some(app), last_report: String::new() }) as Box<dyn eframe::App>)
     };
     runner.start(canvas, web_options(backends), Box::new(create)).await?;
     Ok(name.get().to_owned())
+}
+
+/// The interface that was set aside, as it was.
+fn taken_up((mut app, memory): Aside, cc: &eframe::CreationContext<'_>) -> App {
+    cc.egui_ctx.memory_mut(|fresh| *fresh = memory);
+    app.go_on_in(&cc.egui_ctx, cc.wgpu_render_state.as_ref());
+    app
+}
+
+/// Puts the interface aside, for what draws it is gone. The next [`start`] shows it again as it was.
+#[wasm_bindgen]
+pub fn set_aside() {
+    DEVICE.set(DEVICE.get() + 1);
+    let Some(runner) = RUNNER.with_borrow(Clone::clone) else { return };
+    let app = runner.app_mut::<Shell>().and_then(|mut shell| shell.app.take());
+    let memory = CONTEXT.with_borrow(|ctx| ctx.as_ref().map(|ctx| ctx.memory(Clone::clone)));
+    if let Some(aside) = app.zip(memory) {
+        ASIDE.set(Some(aside));
+    }
+    CONTEXT.set(None);
+    runner.destroy();
 }
 
 /// Panics to the page, log lines to the console. Once per page.
@@ -201,8 +241,9 @@ fn web_options(backends: wgpu::Backends) -> eframe::WebOptions {
 
 /// Listens for the end of the device and for WebGPU's late errors; says which renderer this is.
 fn watch(state: &egui_wgpu::RenderState) -> &'static str {
-    state.device.set_device_lost_callback(|reason, message| {
-        if reason != wgpu::DeviceLostReason::Destroyed {
+    let device = DEVICE.get();
+    state.device.set_device_lost_callback(move |_, message| {
+        if DEVICE.get() == device {
             with_hooks(|hooks| hooks.lost(&message));
         }
     });
@@ -212,6 +253,13 @@ fn watch(state: &egui_wgpu::RenderState) -> &'static str {
     } else {
         "webgl"
     }
+}
+
+/// Whether the interface is on a canvas.
+#[wasm_bindgen]
+#[must_use]
+pub fn is_drawing() -> bool {
+    CONTEXT.with_borrow(Option::is_some)
 }
 
 /// Asks for another frame.
@@ -230,7 +278,8 @@ pub fn paint() {
 }
 
 struct Shell {
-    app: App,
+    /// None once it was set aside.
+    app: Option<App>,
     last_report: String,
 }
 
@@ -241,14 +290,15 @@ impl eframe::App for Shell {
 
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         assert!(!FAIL.get(), "a test asked for this panic");
-        outside::take_in(&mut self.app);
-        logs::take_in(&mut self.app);
-        self.app.ui(ui);
-        self.app.take_effects().into_iter().for_each(outside::hand_out);
+        let Some(app) = &mut self.app else { return };
+        outside::take_in(app);
+        logs::take_in(app);
+        app.ui(ui);
+        app.take_effects().into_iter().for_each(outside::hand_out);
         if TEST.get() {
-            self.remember();
+            remember(app);
         }
-        let report = self.app.report();
+        let report = app.report();
         if report != self.last_report {
             with_hooks(|hooks| hooks.report(&report));
             self.last_report = report;
@@ -256,16 +306,21 @@ impl eframe::App for Shell {
     }
 }
 
-impl Shell {
-    /// Keeps the fingerprint of the run that is shown.
-    fn remember(&self) {
-        SHOWN.with_borrow_mut(|shown| {
-            let run = self.app.run();
-            if shown.as_ref().is_none_or(|(scenario, _)| scenario != run.plan.scenario()) {
-                *shown = Some((run.plan.scenario().clone(), run.fingerprint()));
-            }
-        });
-    }
+/// Keeps the fingerprint of the run that is shown.
+fn remember(app: &App) {
+    SHOWN.with_borrow_mut(|shown| {
+        let run = app.run();
+        if shown.as_ref().is_none_or(|(scenario, _)| scenario != run.plan.scenario()) {
+            *shown = Some((run.plan.scenario().clone(), run.fingerprint()));
+        }
+    });
+}
+
+/// The version of the program.
+#[wasm_bindgen]
+#[must_use]
+pub fn version() -> String {
+    env!("CARGO_PKG_VERSION").to_owned()
 }
 
 /// Whether a finger that comes down at a place of the canvas, CSS pixels from its corner, is for what the page shows there, whichever

@@ -8,7 +8,7 @@ import { logs } from "./logs.js";
 import { messages } from "./messages.js";
 import { mirror } from "./mirror.js";
 import { keepOffline } from "./offline.js";
-import { showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
+import { knowVersion, showFailure, showLost, showNoGpu, showNotices, showProgress, showRunning } from "./pages.js";
 import { program, SINGLE } from "./parts.js";
 import * as progress from "./progress.js";
 import { readQuery } from "./query.js";
@@ -51,7 +51,8 @@ const hooks = {
     requestAnimationFrame(() => requestAnimationFrame(() => failed || showRunning()));
   },
   panicked: (message) => fail(showFailure, message),
-  lost: (message) => fail(showLost, message),
+  // Said from inside the program, which is let go of first.
+  lost: (message) => queueMicrotask(() => lost(message)),
   address: tell,
   save,
   // A single file holds the documents, too, and shows one where it is asked for.
@@ -63,6 +64,7 @@ const hooks = {
   picture: () => {},
   pixels: () => {},
   study: () => {},
+  replaceWorker: () => false,
   chooseLog: () => {},
   readLog: () => {},
   fetchLog: () => {},
@@ -114,10 +116,12 @@ function paintOnOtherScreens(core) {
 async function startOnSome(core) {
   // "auto" falls back by itself where no WebGPU adapter exists, but not when the adapter then refuses a device.
   const attempts = { auto: ["auto", "webgl"], webgpu: ["webgpu", "webgl"], webgl: ["webgl", "webgpu"] }[settings.renderer];
+  // What was lost twice is not to be relied on.
+  if (settings.renderer === "auto" && losses.length === MOST_LOSSES) attempts.reverse();
   const errors = [];
   for (const renderer of attempts) {
     const canvas = freshCanvas();
-    canvas.addEventListener("webglcontextlost", () => fail(showLost, ""));
+    canvas.addEventListener("webglcontextlost", () => canvas.isConnected && lost(""));
     const options = {
       renderer,
       reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
@@ -145,15 +149,43 @@ async function startOnSome(core) {
   return false;
 }
 
+// More losses than these within a minute are not by chance.
+const MOST_LOSSES = 2;
+const MINUTE_MS = 60_000;
+let losses = [];
+/// The start that goes on, and those that wait for it.
+let starts = Promise.resolve(false);
+
+/// What the page is drawn with is gone: it goes on as it was on a fresh canvas.
+function lost(detail) {
+  if (failed || !running) return;
+  const now = performance.now();
+  losses = [...losses.filter((before) => now - before < MINUTE_MS), now];
+  // At once: nobody paints with what is gone.
+  running.set_aside();
+  if (losses.length > MOST_LOSSES) return fail(showLost, detail);
+  console.warn(`The page lost its graphics and begins anew on a fresh canvas. ${detail}`);
+  begin(running).catch((error) => fail(showFailure, describe(error)));
+}
+
+/// Starts the interface, once whatever start is under way has ended.
+function begin(core) {
+  starts = starts.then(() => !failed && startOnSome(core));
+  return starts;
+}
+
 async function main() {
   passThrough(() => running);
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);
   const module = await WebAssembly.compileStreaming(wasm);
-  await core.default({ module_or_path: module });
+  const { memory } = await core.default({ module_or_path: module });
   running = core;
-  hooks.study = studies(core, module);
+  knowVersion(core.version());
+  const { ask, replace } = studies(core, module);
+  hooks.study = ask;
+  hooks.replaceWorker = replace;
   const kept = logs(core, module);
   hooks.choose = () => choose(core, kept);
   hooks.chooseLog = () => chooseLog(core, kept);
@@ -165,8 +197,8 @@ async function main() {
   acceptDrops(core, kept);
   hooks.mirror = elements(document.getElementById("elements"), core, () => document.getElementById("canvas"));
   listen((text) => core.go(text));
-  if (settings.test) globalThis.centrode = core;
-  if (!(await startOnSome(core))) return;
+  if (settings.test) globalThis.centrode = { ...core, memory };
+  if (!(await begin(core))) return;
   paintOnOtherScreens(core);
   host?.start(core);
   keepOffline();

@@ -1,5 +1,6 @@
 // Logs: kept by number, read in a worker of their own, which ends with its file so that its memory is free again.
 import { worker as workerOf } from "./parts.js";
+import { silence } from "./silence.js";
 
 // So much of a file says what it is.
 const HEAD_BYTES = 65536;
@@ -8,23 +9,26 @@ const HEAD_BYTES = 65536;
 export function logs(core, module) {
   const kept = new Map();
   let worker = null;
+  let silent = null;
 
   function end() {
+    silent?.end();
     worker?.terminate();
     worker = null;
   }
 
   /// Reads a file in a worker; `request` is JSON, or nothing to stop.
-  function read(request) {
+  function read(request, again = false) {
     end();
     if (!request) return;
     const { file: number } = JSON.parse(request);
     let started = false;
-    // Without a worker the program reads the file itself; one that fails with the file in its hands, says why.
+    // Another tries once. Without a worker the program reads the file itself; one that fails with the file in its hands, says why.
     const fail = (cause) => {
       const reason = String(cause?.message ?? cause).split("\n", 1)[0];
       end();
-      if (started) core.log_unreadable(number, `It could not be read: ${reason}`);
+      if (!again) read(request, true);
+      else if (started) core.log_unreadable(number, `It could not be read: ${reason}`);
       else core.log_worker_failed(reason);
     };
     try {
@@ -32,8 +36,11 @@ export function logs(core, module) {
       worker = made;
       made.onerror = (event) => made === worker && fail(event.message ?? "the worker could not be loaded");
       made.onmessageerror = () => made === worker && fail("the worker's answer could not be read");
+      silent = silence(() => fail("the worker does not answer"));
+      silent.begin();
       made.onmessage = ({ data }) => {
         if (made !== worker) return;
+        silent.heard();
         if (data.started) started = true;
         if (data.failed) fail(data.failed);
         if (data.answer) core.log_answered(data.answer);

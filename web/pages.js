@@ -36,9 +36,41 @@ export function showFailure(detail) {
 export function showLost(detail) {
   byId("failed-title").textContent = "The page lost its graphics";
   byId("failed-text").textContent =
-    "The browser or its graphics driver dropped the page's drawing context, for example after sleep or a driver update. Reloading brings it back.";
+    "The browser or its graphics driver dropped the page's drawing context three times within a minute. Close other tabs and programs that draw, update the graphics driver, then reload. If it happens again, add ?renderer=webgl or ?renderer=webgpu to the address.";
   showFailure(detail);
 }
+
+let version = "of unknown version";
+
+/// The version of the program, for reports.
+export function knowVersion(text) {
+  version = text;
+}
+
+/// What somebody who mends the page wants to know, and nothing else.
+function report() {
+  const build = document.querySelector("script[data-wasm-bytes]").getAttribute("src")?.split("/", 1)[0] ?? "single file";
+  return [
+    `Centrode ${version}, ${build}`,
+    `Message: ${byId("failed-title").textContent}. ${byId("failed-detail").textContent}`,
+    `Browser: ${navigator.userAgent}`,
+    `Renderer: ${byId("mirror").dataset.renderer ?? "none yet"}`,
+    `Link: ${location.href}`,
+  ].join("\n");
+}
+
+byId("copy-report").onclick = async ({ target }) => {
+  const text = report();
+  try {
+    await navigator.clipboard.writeText(text);
+    target.textContent = "Copied";
+  } catch {
+    // Where the page may not write there, the person does.
+    byId("failed-detail").textContent = text;
+    getSelection().selectAllChildren(byId("failed-detail"));
+    target.textContent = "Selected: copy it by Ctrl+C";
+  }
+};
 
 function close(page) {
   byId("notice").close();

@@ -1,41 +1,78 @@
-// The page's end of the worker: started when the first study is asked for, replaced by nothing when it fails.
+// The page's end of the worker: started when the first study is asked for, replaced by another when it fails, and by nothing when that
+// one does.
 import { worker as workerOf } from "./parts.js";
+import { silence } from "./silence.js";
 
-/// A function that takes a request (JSON, or nothing for none). `core` is the program, to which answers go; `module` is
-/// what it was made from, compiled once for both.
+/// `{ ask, replace }`: `ask` takes a request (JSON, or nothing for none), `replace` says whether another worker takes the place of this
+/// one. `core` is the program, to which answers go; `module` is what it was made from, compiled once for both.
 export function studies(core, module) {
   let worker = null;
+  let replaced = false;
   let failed = false;
+  // What it is to make, until that is made.
+  let asked = null;
+  const silent = silence(() => fail("it does not answer"));
+
+  function end() {
+    silent.end();
+    worker?.terminate();
+    worker = null;
+  }
+
+  function replace() {
+    if (replaced || failed) return false;
+    replaced = true;
+    end();
+    return true;
+  }
 
   function fail(cause) {
     if (failed) return;
-    failed = true;
     // Its first line: what follows is where in the program.
     const reason = String(cause?.message ?? cause).split("\n", 1)[0];
+    if (replace()) {
+      console.warn(`Another worker takes the place of the one that failed: ${cause}`);
+      if (asked !== null) ask(asked);
+      return;
+    }
+    failed = true;
+    end();
     console.warn(`Studies are made on the page, for the worker failed: ${cause}`);
-    worker?.terminate();
     core.study_failed(reason);
   }
 
   function start() {
-    worker = workerOf("worker.js");
-    worker.onerror = (event) => fail(event.message ?? "it could not be loaded");
-    worker.onmessageerror = () => fail("its answer could not be read");
-    worker.onmessage = ({ data }) => {
-      if (data?.answer instanceof Uint8Array) core.study_answered(data.answer);
-      else fail(data?.failed ?? "it sent something that is not an answer");
-    };
-    worker.postMessage({ module });
+    const made = workerOf("worker.js");
+    worker = made;
+    // What one says that was replaced is of no concern.
+    const its = (act) => (event) => made === worker && act(event);
+    made.onerror = its((event) => fail(event.message ?? "it could not be loaded"));
+    made.onmessageerror = its(() => fail("its answer could not be read"));
+    made.onmessage = its(({ data }) => {
+      silent.heard();
+      if (!(data?.answer instanceof Uint8Array)) return fail(data?.failed ?? "it sent something that is not an answer");
+      if (data.done) {
+        asked = null;
+        silent.end();
+      }
+      core.study_answered(data.answer);
+    });
+    made.postMessage({ module });
   }
 
-  return (request) => {
+  function ask(request) {
     if (failed) return;
+    asked = request ?? null;
     try {
       if (!worker) start();
-      worker.postMessage({ request: request ?? null });
+      worker.postMessage({ request: asked });
+      if (asked === null) silent.end();
+      else silent.begin();
     } catch (error) {
       // Inside a call from the program: it is told once it is done.
       setTimeout(() => fail(error));
     }
-  };
+  }
+
+  return { ask, replace };
 }

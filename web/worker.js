@@ -35,7 +35,7 @@ async function loop() {
       while (left && performance.now() < until) left = made.step();
       if (!left || performance.now() - answered > ANSWER_MS) {
         const answer = made.answer();
-        postMessage({ answer }, [answer.buffer]);
+        postMessage({ answer, done: !left }, [answer.buffer]);
         answered = performance.now();
       }
       if (!left) {

@@ -17,6 +17,11 @@ pub trait Helper: std::fmt::Debug {
 
     /// Why it can no longer be relied on, if so. The rest is made here then.
     fn failure(&self) -> Option<String>;
+
+    /// Has another take its place, who knows of no request yet; false where there is no other, or not another one more.
+    fn replace(&mut self) -> bool {
+        false
+    }
 }
 
 /// Who has a study made: by a helper, while there is one that can be relied on.
@@ -104,9 +109,12 @@ impl Asking {
         Ok(Turn::Wait)
     }
 
-    /// Does without the helper from now on.
+    /// Has another take the helper's place, or does without from now on.
     pub fn give_up(&mut self, why: String) {
         self.rest();
+        if self.helper.as_mut().is_some_and(|helper| helper.replace()) {
+            return;
+        }
         self.helper = None;
         self.trouble = Some(why);
     }

@@ -73,4 +73,11 @@ impl Helper for Worker {
     fn failure(&self) -> Option<String> {
         FAILURE.with_borrow(Clone::clone)
     }
+
+    fn replace(&mut self) -> bool {
+        let mut replaced = false;
+        with_hooks(|hooks| replaced = hooks.replace_worker());
+        ANSWERS.take();
+        replaced
+    }
 }

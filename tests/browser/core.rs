@@ -36,7 +36,11 @@ fn every_preset_has_the_same_bits_as_natively() {
 
 #[test]
 fn everything_computed_has_the_stored_fingerprint() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
+    the_stored_fingerprints_are_computed(&mut Page::open(Renderer::WebGl, "?test", Options::default()));
+}
+
+#[track_caller]
+pub fn the_stored_fingerprints_are_computed(page: &mut Page) {
     let ours = page.eval("centrode.fingerprints()");
     let ours: serde_json::Value = serde_json::from_str(ours.as_str().expect("text")).expect("JSON");
     let stored: serde_json::Value =
@@ -63,8 +67,7 @@ fn controls_give_what_the_headless_command_gives() {
 }
 
 #[track_caller]
-fn dragging_the_contact_slider_moves_the_detection(renderer: Renderer) {
-    let mut page = Page::open(renderer, "?test", Options::default());
+pub fn dragging_the_contact_slider_moves_the_detection(page: &mut Page) {
     for (to, disk) in [(0.98, 3), (0.02, 0), (0.667, 2)] {
         page.drag("Slider", "Contact disk", 0.4, to);
         let wanted = headless(&[&format!("contact.disk={disk}")]);
@@ -75,12 +78,12 @@ fn dragging_the_contact_slider_moves_the_detection(renderer: Renderer) {
 
 #[test]
 fn dragging_the_contact_slider_moves_the_detection_on_webgl() {
-    dragging_the_contact_slider_moves_the_detection(Renderer::WebGl);
+    dragging_the_contact_slider_moves_the_detection(&mut Page::open(Renderer::WebGl, "?test", Options::default()));
 }
 
 #[test]
 fn dragging_the_contact_slider_moves_the_detection_on_webgpu() {
-    dragging_the_contact_slider_moves_the_detection(Renderer::WebGpu);
+    dragging_the_contact_slider_moves_the_detection(&mut Page::open(Renderer::WebGpu, "?test", Options::default()));
 }
 
 /// Where the 3D view is in a picture of the window.
@@ -92,9 +95,8 @@ fn view(page: &mut Page) -> Area {
 }
 
 #[track_caller]
-fn the_view_moves_with_playback(renderer: Renderer) {
-    let mut page = Page::open(renderer, "?test", Options::default());
-    let view = view(&mut page);
+pub fn the_view_moves_with_playback(page: &mut Page) {
+    let view = view(page);
     // While it plays, nothing but the robot and its signs moves in there.
     page.wait("the motion to begin", |page| page.number("time").filter(|&time| time < 4.5));
     let before = page.picture();
@@ -118,12 +120,12 @@ fn the_view_moves_with_playback(renderer: Renderer) {
 
 #[test]
 fn the_3d_view_moves_on_webgl() {
-    the_view_moves_with_playback(Renderer::WebGl);
+    the_view_moves_with_playback(&mut Page::open(Renderer::WebGl, "?test", Options::default()));
 }
 
 #[test]
 fn the_3d_view_moves_on_webgpu() {
-    the_view_moves_with_playback(Renderer::WebGpu);
+    the_view_moves_with_playback(&mut Page::open(Renderer::WebGpu, "?test", Options::default()));
 }
 
 /// A measurement, printed with `--nocapture`; that the page computes at all is what it asserts.

@@ -1,6 +1,7 @@
 //! Whatever goes wrong, the page stays readable and says what to do.
 
 use crate::harness::{Area, Options, Page, Renderer};
+use crate::lost;
 use serde_json::Value;
 
 fn notice(page: &mut Page) -> Option<String> {
@@ -10,7 +11,7 @@ fn notice(page: &mut Page) -> Option<String> {
 
 /// Waits until the page shows this face, and gives its text.
 #[track_caller]
-fn wait_for(page: &mut Page, face: &str) -> String {
+pub fn wait_for(page: &mut Page, face: &str) -> String {
     page.wait(face, |page| (page.shown() == face).then_some(()));
     let text = page.text(&format!("#{face}"));
     assert!(page.picture().colours(Area::ALL) > 8, "the page is blank");
@@ -21,15 +22,19 @@ fn wait_for(page: &mut Page, face: &str) -> String {
 #[test]
 fn without_a_gpu_it_says_what_to_do() {
     for options in [Options::default(), Options::phone()] {
-        let mut page = Page::visit(Renderer::Neither, "?test", options);
-        let text = wait_for(&mut page, "no-gpu");
-        for word in ["WebGPU", "WebGL", "settings", "Update"] {
-            assert!(text.contains(word), "{word} in {text}");
-        }
-        let detail = page.eval("document.getElementById('no-gpu-detail').textContent");
-        assert!(detail.as_str().is_some_and(|detail| detail.contains("webgl:")), "{detail}");
-        assert_eq!(page.eval("document.activeElement.className"), "reload");
+        it_says_what_to_do_without_a_gpu(&mut Page::visit(Renderer::Neither, "?test", options));
     }
+}
+
+#[track_caller]
+pub fn it_says_what_to_do_without_a_gpu(page: &mut Page) {
+    let text = wait_for(page, "no-gpu");
+    for word in ["WebGPU", "WebGL", "settings", "Update"] {
+        assert!(text.contains(word), "{word} in {text}");
+    }
+    let detail = page.eval("document.getElementById('no-gpu-detail').textContent");
+    assert!(detail.as_str().is_some_and(|detail| detail.contains("webgl:")), "{detail}");
+    assert_eq!(page.eval("document.activeElement.className"), "reload");
 }
 
 #[test]
@@ -88,25 +93,91 @@ fn a_refused_device_falls_back_to_webgl() {
 }
 
 #[test]
-fn a_panic_shows_its_message() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
-    page.eval("centrode.fail_on_purpose()");
-    let text = wait_for(&mut page, "failed");
-    assert!(text.contains("a test asked for this panic") && text.contains("src/web.rs"), "{text}");
-    page.eval("document.querySelector('#failed button').click()");
+fn a_panic_shows_its_message_and_keeps_what_is_set() {
+    a_panic_keeps_what_is_set(&mut Page::open(Renderer::WebGl, lost::STATE, Options::default()));
+}
+
+/// Presses a button of the page that tells of a failure, and waits until it runs again.
+#[track_caller]
+fn reload_by(page: &mut Page, button: &str) {
+    page.eval(&format!("(window.before = true, document.querySelector('#failed {button}').click())"));
     page.wait("the reloaded page", |page| {
-        (page.shown() == "running" && page.data("ready").as_deref() == Some("true")).then_some(())
+        let anew = page.eval("typeof window.before") == "undefined";
+        (anew && page.shown() == "running" && page.data("ready").as_deref() == Some("true")).then_some(())
     });
 }
 
+#[track_caller]
+pub fn a_panic_keeps_what_is_set(page: &mut Page) {
+    let link = page.eval("location.href");
+    page.eval("centrode.fail_on_purpose()");
+    let text = wait_for(page, "failed");
+    assert!(text.contains("a test asked for this panic") && text.contains("src/web.rs"), "{text}");
+    page.eval("(navigator.clipboard.writeText = async (text) => { window.copied = text; }, 1)");
+    page.eval("document.getElementById('copy-report').click()");
+    let report = page.wait("a report", |page| page.eval("window.copied ?? null").as_str().map(str::to_owned));
+    let heads: Vec<&str> = report.lines().filter_map(|line| line.split([' ', ':']).next()).collect();
+    assert!(report.contains("a test asked for this panic") && report.contains(env!("CARGO_PKG_VERSION")), "{report}");
+    for (head, said) in [
+        ("Browser", page.eval("navigator.userAgent")),
+        ("Renderer", page.data("renderer").into()),
+        ("Link", link.clone()),
+    ] {
+        let line = format!("{head}: {}", said.as_str().unwrap_or_default());
+        assert!(heads.contains(&head) && report.lines().any(|own| own == line), "{line} in {report}");
+    }
+    reload_by(page, ".reload");
+    assert_eq!(page.eval("location.href"), link);
+    assert_eq!((page.widget("Slider", "Contact disk").number, page.number("time")), (Some(3.0), Some(6.27)));
+    page.eval("centrode.fail_on_purpose()");
+    wait_for(page, "failed");
+    reload_by(page, "#afresh");
+    let address = page.eval("location.href");
+    assert_eq!(address.as_str().and_then(|address| address.split('#').nth(1)).unwrap_or_default(), "");
+}
+
 #[test]
-fn a_lost_context_offers_to_reload() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
-    page.eval(
-        "document.getElementById('canvas').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext()",
-    );
-    let text = wait_for(&mut page, "failed");
-    assert!(text.contains("lost its graphics"), "{text}");
+fn a_lost_context_comes_back() {
+    lost::lost_graphics_come_back(&mut Page::open(Renderer::WebGl, lost::STATE, Options::default()));
+}
+
+/// What a browser does whose storage is full, refused, or holds what another version kept.
+const STORAGES: [(&str, &str); 4] = [
+    ("full", "Storage.prototype.setItem = () => { throw new DOMException('full', 'QuotaExceededError'); };"),
+    (
+        "refused",
+        "for (const name of ['localStorage', 'sessionStorage', 'caches', 'indexedDB']) \
+        Object.defineProperty(globalThis, name, { get() { throw new DOMException('no', 'SecurityError'); } }); \
+        Object.defineProperty(Navigator.prototype, 'serviceWorker', { get() { throw new DOMException('no', 'SecurityError'); } });",
+    ),
+    (
+        "nonsense",
+        "if (location.protocol !== 'about:') localStorage.setItem('centrode.progress', '{\"tour\":\"\\u0000\",\"met\":7');",
+    ),
+    (
+        "of another version",
+        "if (location.protocol !== 'about:') \
+        localStorage.setItem('centrode.progress', '{\"version\":99,\"tour\":900,\"done\":[-1],\"met\":[\"gone\"]}');",
+    ),
+];
+
+#[test]
+fn storage_never_stops_the_page() {
+    for (what, script) in STORAGES {
+        let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
+        page.before_scripts(script);
+        let address = page.eval("location.origin + location.pathname");
+        page.browse("about:blank");
+        page.go(&format!("{}?test#tour=1", address.as_str().expect("an address")));
+        page.wait(what, |page| match page.shown().as_str() {
+            "failed" => panic!("storage that is {what} stops the page: {}", page.text("#failed")),
+            "running" => Some(()),
+            _ => None,
+        });
+        page.frames();
+        assert_eq!(page.shown(), "running", "{what}");
+        assert_eq!(page.problems(), Vec::<String>::new(), "{what}");
+    }
 }
 
 #[test]

@@ -35,11 +35,15 @@ fn replayed(link: &str) -> Value {
 
 #[test]
 fn the_address_follows_and_is_replayed_to_the_last_bit() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
-    assert_eq!(fragment(&mut page), "", "nothing is set yet");
+    a_link_is_replayed_to_the_last_bit(&mut Page::open(Renderer::WebGl, "?test", Options::default()));
+}
+
+#[track_caller]
+pub fn a_link_is_replayed_to_the_last_bit(page: &mut Page) {
+    assert_eq!(fragment(page), "", "nothing is set yet");
     page.type_number("Contact disk", "3");
     page.type_number("Seed", "7");
-    let link = wait_for_fragment(&mut page, "seed=7");
+    let link = wait_for_fragment(page, "seed=7");
     assert!(link.contains("contact.disk=3"), "{link}");
     let address = page.eval("location.href");
     let address = address.as_str().expect("an address");
@@ -103,9 +107,16 @@ fn a_broken_link_opens_its_dialog() {
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 
+/// Where the contact is on disk 2.
+pub const BENCH: &str = "?test#preset=bench&t=6.27";
+
 #[test]
 fn a_dropped_scenario_is_opened_and_a_saved_one_is_handed_out() {
-    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.27", Options::default());
+    files_are_opened_and_saved(&mut Page::open(Renderer::WebGl, BENCH, Options::default()));
+}
+
+#[track_caller]
+pub fn files_are_opened_and_saved(page: &mut Page) {
     let drop = |text: &str| {
         format!(
             "(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], 'mine.toml')); \
@@ -115,14 +126,14 @@ fn a_dropped_scenario_is_opened_and_a_saved_one_is_handed_out() {
         )
     };
     page.eval(&drop("[contact]\ndisk = 3\n"));
-    wait_for_disk(&mut page, 3.0);
+    wait_for_disk(page, 3.0);
     page.eval(&drop("[contact]\ndisk = 9\n"));
     page.wait("the dialog", |page| page.widgets().into_iter().find(|widget| widget.label == "Go on"));
     page.click("Button", "Go on");
-    wait_for_disk(&mut page, 3.0);
+    wait_for_disk(page, 3.0);
     // What is saved is looked at before it would become a download.
     page.eval(LOOK);
-    let (name, text) = saved(&mut page, "Share", "Save scenario");
+    let (name, text) = saved(page, "Share", "Save scenario");
     assert!(name.starts_with("centrode-") && name.ends_with(".toml"), "{name}");
     assert!(String::from_utf8_lossy(&text).contains("disk = 3"), "{text:?}");
     assert_eq!(page.problems(), Vec::<String>::new());

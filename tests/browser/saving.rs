@@ -6,12 +6,12 @@ use base64::engine::general_purpose::STANDARD;
 use std::process::Command;
 
 /// Looks at what would become a download: its name, and its bytes in base64. The page's policy lets nobody fetch what was made of them.
-pub const LOOK: &str = "{ window.saved = null; const made = new Map(); const make = URL.createObjectURL; \
+pub const LOOK: &str = "(() => { window.saved = null; const made = new Map(); const make = URL.createObjectURL; \
     URL.createObjectURL = (blob) => { const url = make.call(URL, blob); made.set(url, blob); return url; }; \
     HTMLAnchorElement.prototype.click = async function () { \
     const bytes = new Uint8Array(await made.get(this.href).arrayBuffer()); \
     let text = ''; for (const byte of bytes) text += String.fromCharCode(byte); \
-    window.saved = [this.download, btoa(text)]; }; } 1";
+    window.saved = [this.download, btoa(text)]; }; })()";
 
 /// Hands no font on.
 const NO_FONTS: &str = "{ const Real = Blob; \
@@ -20,7 +20,7 @@ const NO_FONTS: &str = "{ const Real = Blob; \
 /// Picks an entry of a card's menu; gives name and bytes of what is saved.
 #[track_caller]
 pub fn saved(page: &mut Page, menu: &str, entry: &str) -> (String, Vec<u8>) {
-    page.eval("window.saved = null; 1");
+    page.eval("window.saved = null");
     page.click("Button", menu);
     page.wait("the menu", |page| page.widgets().into_iter().find(|widget| widget.label == entry));
     page.click("MenuItem", entry);

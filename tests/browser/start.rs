@@ -12,23 +12,22 @@ fn wait_for_motion(page: &mut Page, before: &Picture) {
 }
 
 #[track_caller]
-fn draws_and_moves(renderer: Renderer, name: &str) {
-    let mut page = Page::open(renderer, "?test", Options::default());
+pub fn draws_and_moves(page: &mut Page, name: &str) {
     assert_eq!(page.data("renderer").as_deref(), Some(name));
     let before = page.picture();
     assert!(before.colours(MIDDLE) > 8, "the middle of the page is blank");
-    wait_for_motion(&mut page, &before);
+    wait_for_motion(page, &before);
     assert_eq!(page.problems(), Vec::<String>::new());
 }
 
 #[test]
 fn draws_and_moves_on_webgl() {
-    draws_and_moves(Renderer::WebGl, "webgl");
+    draws_and_moves(&mut Page::open(Renderer::WebGl, "?test", Options::default()), "webgl");
 }
 
 #[test]
 fn draws_and_moves_on_webgpu() {
-    draws_and_moves(Renderer::WebGpu, "webgpu");
+    draws_and_moves(&mut Page::open(Renderer::WebGpu, "?test", Options::default()), "webgpu");
 }
 
 #[test]

@@ -73,8 +73,12 @@ fn frames_during(page: &mut Page, answers: usize) -> u64 {
 
 #[test]
 fn a_study_in_the_worker_has_the_commands_numbers() {
-    let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
-    open(&mut page);
+    a_study_has_the_commands_numbers(&mut Page::open(Renderer::WebGl, "?test", Options::default()));
+}
+
+#[track_caller]
+pub fn a_study_has_the_commands_numbers(page: &mut Page) {
+    open(page);
     let done = |page: &mut Page| tuning(page).filter(|tuning| tuning["done"] == tuning["of"]);
     let all = page.wait("the study to end", done);
     assert_eq!(all["helper"], true);
@@ -130,17 +134,64 @@ fn a_worker_that_cannot_load_is_done_without() {
     assert_eq!(without["helper"], false);
 }
 
+/// Waits until the study has come further, and says whether a worker makes it.
+#[track_caller]
+fn goes_on(page: &mut Page) -> bool {
+    let before = tuning(page).expect("a study");
+    let now = page
+        .wait("the study to go on", |page| tuning(page).filter(|now| now["done"].as_f64() > before["done"].as_f64()));
+    now["helper"] == true
+}
+
 #[test]
-fn a_worker_that_answers_nonsense_is_done_without() {
+fn a_worker_that_answers_nonsense_is_replaced_once_and_then_done_without() {
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     open(&mut page);
     page.click("RadioButton", "1000");
-    page.eval("centrode.study_answered(new Uint8Array([255, 255, 255, 255, 255, 255]))");
-    let without = page.wait("the page's own study", |page| tuning(page).filter(|tuning| tuning["helper"] == false));
-    page.wait("the study to go on", |page| tuning(page).filter(|now| now["done"].as_f64() > without["done"].as_f64()));
+    let nonsense = "centrode.study_answered(new Uint8Array([255, 255, 255, 255, 255, 255]))";
+    page.eval(nonsense);
+    page.frames();
+    assert!(goes_on(&mut page), "another takes its place");
+    page.eval(nonsense);
+    page.wait("the page's own study", |page| tuning(page).filter(|tuning| tuning["helper"] == false));
+    assert!(!goes_on(&mut page));
     page.wait("words about it", |page| {
         let mut said = page.widgets().into_iter().map(|widget| widget.label + &widget.value);
         said.find(|said| said.contains("The worker failed (its answer cannot be read"))
     });
     assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+/// Workers that make studies: the first `COUNT` of them do as `ILL` says with a request, and the page looks more often whether they are silent.
+const ILL: &str = "{ const [Real, tick] = [Worker, setInterval]; let [ill, quick] = [COUNT, false]; \
+    globalThis.setInterval = (call, time, ...rest) => tick(call, quick && time === 5000 ? 100 : time, ...rest); \
+    globalThis.Worker = function (address, options) { \
+      const made = new Real(address, options); \
+      if (!/[/]worker[.]js$/.test(address)) return made; \
+      quick = ill > 0; \
+      if (!quick) return made; \
+      ill -= 1; \
+      const post = made.postMessage.bind(made); \
+      made.postMessage = (message, ...rest) => 'request' in message && message.request ? (ILL) : post(message, ...rest); \
+      return made; }; }";
+
+/// The page with a study, whose first `count` workers are ill.
+#[track_caller]
+fn with_ill_workers(count: usize, ill: &str) -> Page {
+    let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
+    page.before_scripts(&ILL.replace("COUNT", &count.to_string()).replace("ILL", ill));
+    again(&mut page);
+    open(&mut page);
+    page
+}
+
+#[test]
+fn a_worker_that_hangs_or_dies_is_replaced_once_and_then_done_without() {
+    for ill in ["0", "made.onerror(new ErrorEvent('error', { message: 'it died' }))"] {
+        for (count, helped) in [(1, true), (2, false)] {
+            let mut page = with_ill_workers(count, ill);
+            assert_eq!(goes_on(&mut page), helped, "{count} workers that do {ill:?}");
+            assert_eq!(page.problems(), Vec::<String>::new());
+        }
+    }
 }

@@ -9,6 +9,7 @@ mod contact;
 mod detectors;
 mod embed;
 mod gallery;
+mod going_on;
 mod keyboard;
 mod lesson;
 mod links;

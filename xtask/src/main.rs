@@ -3,6 +3,8 @@
 //! Run as `cargo xtask COMMAND`.
 
 mod build;
+mod engines;
+mod foreign;
 mod fuzz;
 mod licence;
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use crate::build::{self, Which};
 use crate::run::{cargo, run};
 use crate::tools::{self, WASM};
-use crate::{package, reproduce, serve, theory};
+use crate::{engines, foreign, package, reproduce, serve, theory};
 use anyhow::{Result, bail};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -45,11 +45,13 @@ enum Stage {
     Pure,
     /// Everything that runs natively: command, headless interface, the rules of the house
     Native,
+    /// Everything computed has the same bits on an emulated aarch64
+    Aarch64,
     /// What others use is packed and compiled as they get it, and with the oldest Rust that it states
     Package,
     /// The page and the theory beside it are built, their sizes are told
     Page,
-    /// The built page in a real browser
+    /// The built page in real browsers: Chromium, Firefox and WebKit
     Browser,
     /// Built in another folder, the published page is the same bytes; only when it is named, for it builds everything a second time
     Reproducible,
@@ -108,15 +110,18 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
             run(cargo().arg("test").args(PRODUCT).arg("--").args(&options.arguments))?;
             run(cargo().args(["test", "--package", "xtask", "--"]).args(&options.arguments))
         }
+        Stage::Aarch64 => foreign::check(),
         Stage::Package => package::check(),
         Stage::Page => page(options.dev, dist).map(drop),
         Stage::Reproducible => reproduce::check(&page(false, dist)?),
         Stage::Browser => {
             let (browser, axe) = (tools::browser()?, tools::axe()?);
+            engines::install()?;
+            let rows = engines::rows()?;
             // Not at the root, so that an absolute address anywhere in the page shows.
             let dist = page(options.dev, dist)?;
             let page = serve::background(&dist, "/deep/path/")?;
-            run(cargo()
+            let tested = run(cargo()
                 .arg("test")
                 .args(PRODUCT)
                 .args(["--test", "browser", "--"])
@@ -124,7 +129,9 @@ fn perform(stage: Stage, options: &Options, dist: &mut Option<PathBuf>) -> Resul
                 .env("CENTRODE_PAGE", page)
                 .env("CENTRODE_DIST", &dist)
                 .env("CENTRODE_BROWSER", browser)
-                .env("CENTRODE_AXE", axe))
+                .env("CENTRODE_ROWS", &rows)
+                .env("CENTRODE_AXE", axe));
+            tested.and(engines::table(&rows, !options.arguments.is_empty()))
         }
     }
 }

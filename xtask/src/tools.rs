@@ -10,12 +10,17 @@ pub const WASM: &str = "wasm32-unknown-unknown";
 
 /// Adds the wasm target to the toolchain when it is missing.
 pub fn wasm_target() -> Result<()> {
+    rust_target(WASM, "the page is compiled for it")
+}
+
+/// Adds a target to the toolchain when it is missing; `why` is for the failure's message.
+pub fn rust_target(name: &str, why: &str) -> Result<()> {
     let sysroot = output(Command::new("rustc").args(["--print", "sysroot"]))?;
-    if Path::new(sysroot.trim()).join("lib/rustlib").join(WASM).join("lib").is_dir() {
+    if Path::new(sysroot.trim()).join("lib/rustlib").join(name).join("lib").is_dir() {
         return Ok(());
     }
-    run(Command::new("rustup").args(["target", "add", WASM]))
-        .context("the page needs Rust's wasm32-unknown-unknown target, and rustup could not add it")
+    run(Command::new("rustup").args(["target", "add", name]))
+        .with_context(|| format!("rustup could not add the target {name} ({why})"))
 }
 
 /// Adds rustfmt or clippy to the toolchain when it is missing.
@@ -46,11 +51,25 @@ fn find_browser() -> Option<PathBuf> {
     if let Some(named) = std::env::var_os("CENTRODE_BROWSER") {
         return Some(named.into());
     }
+    on_path(&NAMES).or_else(|| MAC.map(PathBuf::from).into_iter().find(|candidate| candidate.is_file()))
+}
+
+/// The first program of one of these names on the PATH.
+pub fn on_path(names: &[&str]) -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
-    std::env::split_paths(&path)
-        .flat_map(|folder| NAMES.map(|name| folder.join(name)))
-        .chain(MAC.map(PathBuf::from))
-        .find(|candidate| candidate.is_file())
+    let candidates = |folder: PathBuf| names.iter().map(move |name| folder.join(name)).collect::<Vec<_>>();
+    std::env::split_paths(&path).flat_map(candidates).find(|candidate| candidate.is_file())
+}
+
+/// Whether packages are Debian's here.
+pub fn is_debian() -> bool {
+    succeeds(Command::new("dpkg-query").arg("--version"))
+}
+
+/// Whether a Debian package is installed.
+pub fn has_package(name: &str) -> bool {
+    output(Command::new("dpkg-query").args(["--show", "--showformat=${Status}", name]))
+        .is_ok_and(|status| status.ends_with(" installed"))
 }
 
 /// The version of axe-core that looks at the page.
@@ -103,7 +122,7 @@ fn has_vulkan_driver() -> bool {
 }
 
 /// Installs Debian packages, as root or through sudo when that asks for no password.
-fn install(packages: &[&str]) -> Result<()> {
+pub fn install(packages: &[&str]) -> Result<()> {
     let list = packages.join(" ");
     let refusal = format!("please install: {list} (on Debian: apt-get install {list})");
     if !succeeds(Command::new("apt-get").arg("--version")) {

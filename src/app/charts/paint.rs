@@ -94,6 +94,8 @@ fn texture(ctx: &Context, name: &str, map: &Map, theme: &Theme, soft: bool) -> T
 /// A chart as it was last shown: kept while what it was made of, its key, and the page stay the same.
 pub struct Picture<K> {
     key: K,
+    /// Whose textures the maps are: the page may be drawn by another from a moment on.
+    ctx: Context,
     shade: Shade,
     chart: Chart,
     maps: Vec<Option<TextureHandle>>,
@@ -109,14 +111,14 @@ impl<K: PartialEq> Picture<K> {
         (key, soft): (K, bool),
         make: impl FnOnce() -> Chart,
     ) -> &'a mut Self {
-        let same = kept.take().filter(|picture| picture.key == key && picture.shade == theme.shade);
+        let same = kept.take().filter(|was| was.key == key && was.shade == theme.shade && was.ctx == *ctx);
         kept.insert(same.unwrap_or_else(|| {
             let chart = make();
             let map = |panel: &centrode_core::chart::Panel| {
                 panel.map.as_ref().map(|map| texture(ctx, &panel.title, map, theme, soft))
             };
             let maps = chart.panels.iter().map(map).collect();
-            Self { key, shade: theme.shade, chart, maps, laid: None }
+            Self { key, ctx: ctx.clone(), shade: theme.shade, chart, maps, laid: None }
         }))
     }
 

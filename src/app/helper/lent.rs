@@ -30,4 +30,8 @@ impl Helper for Lent {
     fn failure(&self) -> Option<String> {
         self.0.borrow().failure()
     }
+
+    fn replace(&mut self) -> bool {
+        self.0.borrow_mut().replace()
+    }
 }

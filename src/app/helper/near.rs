@@ -21,6 +21,8 @@ pub struct Desk {
     pub broken: bool,
     /// It answers nonsense from now on.
     pub babbles: bool,
+    /// So many others can take its place.
+    pub others: usize,
 }
 
 /// The worker.
@@ -50,5 +52,12 @@ impl Helper for Near {
 
     fn failure(&self) -> Option<String> {
         self.0.borrow().broken.then(|| "it is gone".into())
+    }
+
+    fn replace(&mut self) -> bool {
+        let mut desk = self.0.borrow_mut();
+        let Some(left) = desk.others.checked_sub(1) else { return false };
+        *desk = Desk { others: left, asked: desk.asked, ..Desk::default() };
+        true
     }
 }

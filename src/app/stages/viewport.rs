@@ -69,6 +69,12 @@ impl ViewState {
         Self { gpu: render_state.cloned(), still, ..Self::default() }
     }
 
+    /// Draws with another render state from now on. A picture that was on its way to a file will not come: gives the file's name.
+    pub fn draw_with(&mut self, render_state: Option<&egui_wgpu::RenderState>) -> Option<String> {
+        self.gpu = Self::new(render_state, self.still).gpu;
+        self.saved.take().map(|(name, _)| name)
+    }
+
     /// Draws what is shown once more for a file of this name, two pixels to a point, without background and floor where it is to
     /// be `clear`. False where there is nothing to draw with.
     pub fn save(&mut self, name: String, clear: bool) -> bool {

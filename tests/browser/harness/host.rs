@@ -69,6 +69,41 @@ pub fn rebuilt(files: &Files, other: &str) -> Files {
     files.iter().map(renamed).collect()
 }
 
+/// Keeps in `problems` what a browser's console would show as an error, and in `devices` what the page may draw with on WebGPU, from
+/// before the page's own scripts.
+const LISTENER: &str = "globalThis.problems = [];
+const tell = (kind, what) => problems.push(`${kind}: ${what}`);
+for (const kind of ['error', 'assert']) {
+  const spoken = console[kind];
+  console[kind] = (...words) => {
+    if (kind === 'error' || !words[0]) tell(`console.${kind}`, words.map((word) => word?.stack ?? word).join(' '));
+    spoken.apply(console, words);
+  };
+}
+// Captured: an element that does not load says so to itself alone.
+addEventListener('error', (event) => tell('error', event.error?.stack ?? event.message ?? event.target?.src ?? event.target?.href), true);
+addEventListener('unhandledrejection', (event) => tell('rejection', event.reason?.stack ?? event.reason));
+if (globalThis.GPUAdapter) {
+  globalThis.devices = [];
+  const request = GPUAdapter.prototype.requestDevice;
+  GPUAdapter.prototype.requestDevice = async function (...wish) {
+    const device = await request.apply(this, wish);
+    devices.push(device);
+    return device;
+  };
+}
+document.addEventListener('securitypolicyviolation', (event) => tell('policy', `${event.violatedDirective} ${event.blockedURI}`));
+";
+
+/// The same files with one more, which hears what goes wrong in the page: not every browser lets its console be read.
+pub fn heard(mut files: Files) -> Files {
+    let index = files.get_mut("index.html").expect("a page");
+    let text = String::from_utf8(std::mem::take(index)).expect("text");
+    *index = text.replacen("<script", "<script src=\"listener.js\"></script>\n    <script", 1).into_bytes();
+    files.insert("listener.js".into(), LISTENER.into());
+    files
+}
+
 impl Host {
     /// A host that serves these files.
     pub fn of(files: Files) -> Self {

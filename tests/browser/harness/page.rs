@@ -1,8 +1,9 @@
 //! The page as a person uses it: look, click, drag, type. Widgets are found by their names.
 
 use super::chromium::{Chromium, Renderer};
+use super::driven::{Driven, Engine};
 use super::picture::Picture;
-use base64::Engine;
+use base64::Engine as _;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::thread;
@@ -62,9 +63,18 @@ pub struct Widget {
     pub bounds: Option<[f64; 4]>,
 }
 
+/// All widgets as JSON, for JavaScript.
+pub const WIDGETS: &str = "((canvas) => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))";
+
+/// Who shows the page.
+pub(super) enum Browser {
+    Chromium(Box<Chromium>),
+    Driven(Driven),
+}
+
 /// The page in a browser of its own.
 pub struct Page {
-    chromium: Chromium,
+    pub(super) browser: Browser,
     options: Options,
 }
 
@@ -108,10 +118,11 @@ impl Page {
     /// A browser that looks as the options say, on no page yet.
     #[track_caller]
     pub fn blank(renderer: Renderer, options: Options) -> Self {
-        let mut page = Self { chromium: Chromium::start(renderer, options.scale), options };
+        let browser = Browser::Chromium(Box::new(Chromium::start(renderer, options.scale)));
+        let mut page = Self { browser, options };
         page.resize(options.size);
         let preference = |name, on, yes, no| json!({ "name": name, "value": if on { yes } else { no } });
-        page.chromium.call(
+        page.chromium().call(
             "Emulation.setEmulatedMedia",
             json!({ "features": [
                 preference("prefers-color-scheme", options.dark, "dark", "light"),
@@ -119,16 +130,33 @@ impl Page {
             ]}),
         );
         if options.phone {
-            page.chromium.call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
+            page.chromium().call("Emulation.setTouchEmulationEnabled", json!({ "enabled": true, "maxTouchPoints": 2 }));
         }
         page
+    }
+
+    /// Another browser than Chromium, on no page yet.
+    #[track_caller]
+    pub fn driven(engine: Engine, renderer: Renderer) -> Self {
+        let options = Options::default();
+        let mut page = Self { browser: Browser::Driven(Driven::start(engine, renderer)), options };
+        page.resize(options.size);
+        page
+    }
+
+    /// Chromium's own connection, for what only Chromium is asked for.
+    #[track_caller]
+    pub(super) fn chromium(&mut self) -> &mut Chromium {
+        match &mut self.browser {
+            Browser::Chromium(chromium) => chromium,
+            Browser::Driven(_) => panic!("only Chromium is asked for this"),
+        }
     }
 
     /// Goes to an address and waits for nothing.
     #[track_caller]
     pub fn go(&mut self, address: &str) {
-        let result = self.chromium.call("Page.navigate", json!({ "url": address }));
-        assert!(result.get("errorText").is_none(), "{address}: {result}");
+        self.navigate(address);
         self.wait("the document", |page| {
             (page.eval("document.readyState") != "loading" && !page.shown().is_empty()).then_some(())
         });
@@ -137,9 +165,19 @@ impl Page {
     /// Goes to an address that need not be that of the page, and waits until all of it is there.
     #[track_caller]
     pub fn browse(&mut self, address: &str) {
-        let result = self.chromium.call("Page.navigate", json!({ "url": address }));
-        assert!(result.get("errorText").is_none(), "{address}: {result}");
+        self.navigate(address);
         self.wait("the document", |page| (page.eval("document.readyState") == "complete").then_some(()));
+    }
+
+    #[track_caller]
+    fn navigate(&mut self, address: &str) {
+        match &mut self.browser {
+            Browser::Chromium(chromium) => {
+                let result = chromium.call("Page.navigate", json!({ "url": address }));
+                assert!(result.get("errorText").is_none(), "{address}: {result}");
+            }
+            Browser::Driven(driven) => driven.go(address),
+        }
     }
 
     /// Loads the page anew, as it is, and waits until it runs.
@@ -155,12 +193,16 @@ impl Page {
     /// Gives the page another size, in CSS pixels.
     pub fn resize(&mut self, size: [u32; 2]) {
         self.options.size = size;
-        self.chromium.call(
+        if let Browser::Driven(driven) = &mut self.browser {
+            return driven.resize(size);
+        }
+        let Options { emulated, phone, .. } = self.options;
+        self.chromium().call(
             "Emulation.setDeviceMetricsOverride",
             json!({
                 "width": size[0], "height": size[1],
                 // 0: as the browser was started.
-                "deviceScaleFactor": self.options.emulated.unwrap_or(0.0), "mobile": self.options.phone,
+                "deviceScaleFactor": emulated.unwrap_or(0.0), "mobile": phone,
             }),
         );
     }
@@ -190,8 +232,12 @@ impl Page {
     /// Evaluates JavaScript, awaiting promises.
     #[track_caller]
     pub fn eval(&mut self, script: &str) -> Value {
+        let chromium = match &mut self.browser {
+            Browser::Chromium(chromium) => chromium,
+            Browser::Driven(driven) => return driven.eval(script),
+        };
         let parameters = json!({ "expression": script, "returnByValue": true, "awaitPromise": true });
-        let mut result = self.chromium.evaluate(&parameters);
+        let mut result = chromium.evaluate(&parameters);
         if let Some(exception) = result.get("exceptionDetails") {
             panic!("{script}: {exception}");
         }
@@ -200,16 +246,16 @@ impl Page {
 
     /// Runs this script at the start of every page visited from now on.
     pub fn before_scripts(&mut self, script: &str) {
-        self.chromium.call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
+        self.chromium().call("Page.addScriptToEvaluateOnNewDocument", json!({ "source": script }));
     }
 
     /// Answers every request for a file of this name with `status` from now on.
     pub fn block(&mut self, file: &str, status: u16) {
-        self.chromium.block = Some(status);
+        self.chromium().block = Some(status);
         // What keeps the page for when there is no network would hand out what it has.
-        self.chromium.call("Network.enable", json!({}));
-        self.chromium.call("Network.setBypassServiceWorker", json!({ "bypass": true }));
-        self.chromium.call("Fetch.enable", json!({ "patterns": [{ "urlPattern": format!("*/{file}") }] }));
+        self.chromium().call("Network.enable", json!({}));
+        self.chromium().call("Network.setBypassServiceWorker", json!({ "bypass": true }));
+        self.chromium().call("Fetch.enable", json!({ "patterns": [{ "urlPattern": format!("*/{file}") }] }));
     }
 
     /// Which face the page shows: `loading`, `running`, `no-gpu` or `failed`.
@@ -242,9 +288,7 @@ impl Page {
     /// All widgets. The page must have been opened with `?test`.
     #[track_caller]
     pub fn widgets(&mut self) -> Vec<Widget> {
-        let json = self.eval(
-            "(canvas => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))",
-        );
+        let json = self.eval(WIDGETS);
         serde_json::from_str(json.as_str().unwrap_or_default()).expect("a list of widgets")
     }
 
@@ -259,183 +303,13 @@ impl Page {
 
     /// Waits for the next two frames, in which the interface has taken in what was done.
     pub fn frames(&mut self) {
-        self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))");
-    }
-
-    /// Clicks in the middle of a widget.
-    #[track_caller]
-    pub fn click(&mut self, role: &str, label: &str) {
-        let widget = self.widget(role, label);
-        let at = widget.at(0.5);
-        self.mouse("mouseMoved", at);
-        self.frames();
-        // No frame between: a slow one would make a long press of it.
-        self.mouse("mousePressed", at);
-        self.mouse("mouseReleased", at);
-        self.frames();
-    }
-
-    /// Drags between two places inside a widget, given as fractions of its width.
-    #[track_caller]
-    pub fn drag(&mut self, role: &str, label: &str, from: f64, to: f64) {
-        let widget = self.widget(role, label);
-        let (start, end) = (widget.at(from), widget.at(to));
-        let middle = [(start[0] + end[0]) / 2.0, (start[1] + end[1]) / 2.0];
-        for (what, at) in [
-            ("mouseMoved", start),
-            ("mousePressed", start),
-            ("mouseMoved", middle),
-            ("mouseMoved", end),
-            ("mouseReleased", end),
-        ] {
-            self.mouse(what, at);
-            self.frames();
+        let frames = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(0))))";
+        if let Browser::Chromium(_) = self.browser {
+            self.eval(frames);
+        } else {
+            // Firefox drops a frame that was asked for just as a canvas on WebGPU went; who waits for a state asks again anyway.
+            self.eval(&format!("Promise.race([{frames}, new Promise(done => setTimeout(done, 3000, 0))])"));
         }
-    }
-
-    /// Types a number into the field beside a slider and presses Enter.
-    #[track_caller]
-    pub fn type_number(&mut self, label: &str, text: &str) {
-        self.click("TextInput", &format!("{label} value"));
-        self.wait("the field to take text", |page| {
-            (page.eval("document.activeElement?.tagName") == "INPUT").then_some(())
-        });
-        self.chromium.call("Input.insertText", json!({ "text": text }));
-        self.frames();
-        self.key("Enter");
-    }
-
-    /// The real element of this kind and name that stands for a widget, as JavaScript finds it; waits until it is there.
-    #[track_caller]
-    pub fn element(&mut self, kind: &str, name: &str) -> String {
-        let script = format!(
-            "[...document.querySelectorAll('#elements [data-kind={kind}]')].find((node) => \
-             (node.getAttribute('aria-label') ?? node.textContent) === {})",
-            json!(name)
-        );
-        self.wait(&format!("an element {kind} named {name:?}"), |page| {
-            (page.eval(&format!("Boolean({script})")) == true).then_some(())
-        });
-        format!("({script})")
-    }
-
-    /// The kind and the name of the element that has the keyboard; empty where none has.
-    pub fn focused(&mut self) -> (String, String) {
-        let found = self.eval(
-            "(({ dataset, ariaLabel, textContent }) => [dataset.kind ?? '', dataset.kind ? ariaLabel ?? textContent : ''])(document.activeElement)",
-        );
-        serde_json::from_value(found).unwrap_or_default()
-    }
-
-    /// Presses Tab, or Shift and Tab, until this element has the keyboard.
-    #[track_caller]
-    pub fn tab_to(&mut self, key: &str, kind: &str, name: &str) {
-        let mut seen = Vec::new();
-        for _ in 0..400 {
-            self.press(key);
-            let focused = self.focused();
-            if focused == (kind.to_owned(), name.to_owned()) {
-                return self.frames();
-            }
-            seen.push(focused);
-        }
-        panic!("Tab never comes to {kind} {name:?}, only to {seen:?}");
-    }
-
-    /// Types text into whatever has the keyboard.
-    pub fn insert(&mut self, text: &str) {
-        self.chromium.call("Input.insertText", json!({ "text": text }));
-        self.frames();
-    }
-
-    /// Presses and releases a key, named as in JavaScript (`" "`, `ArrowRight`, `Home`, `a`).
-    ///
-    /// `Shift` before a name holds that key, too (`ShiftTab`).
-    pub fn key(&mut self, key: &str) {
-        self.press(key);
-        if key.ends_with("Tab") {
-            self.frames();
-        }
-    }
-
-    /// The same, for what the browser does without a frame of the interface.
-    pub fn press(&mut self, key: &str) {
-        let shift = key.len() > 5 && key.starts_with("Shift");
-        let key = if shift { &key[5..] } else { key };
-        let modifiers = if shift { 8 } else { 0 };
-        let text = match key {
-            "Enter" => "\r",
-            key if key.chars().count() == 1 => key,
-            _ => "",
-        };
-        let code = if key == " " { "Space" } else { key };
-        // Without its old number a key looks to eframe like one of a phone's soft keyboard, which it leaves alone.
-        let number = match key {
-            "Tab" => 9,
-            "Enter" => 13,
-            "Escape" => 27,
-            "End" => 35,
-            "Home" => 36,
-            "PageUp" => 33,
-            "PageDown" => 34,
-            "ArrowUp" => 38,
-            "ArrowDown" => 40,
-            "ArrowLeft" => 37,
-            "ArrowRight" => 39,
-            key => key.to_ascii_uppercase().bytes().next().map_or(0, u32::from),
-        };
-        for (what, text) in [("keyDown", text), ("keyUp", "")] {
-            let event = json!({ "type": what, "key": key, "code": code, "text": text, "windowsVirtualKeyCode": number, "modifiers": modifiers });
-            self.chromium.call("Input.dispatchKeyEvent", event);
-            if key != "Tab" {
-                self.frames();
-            }
-        }
-    }
-
-    /// A mouse event at a place of the page, in CSS pixels: `mouseMoved`, `mousePressed` or `mouseReleased`.
-    pub fn mouse(&mut self, what: &str, [x, y]: [f64; 2]) {
-        let button = if what == "mouseMoved" { "none" } else { "left" };
-        self.chromium.call(
-            "Input.dispatchMouseEvent",
-            json!({ "type": what, "x": x, "y": y, "button": button, "clickCount": 1 }),
-        );
-    }
-
-    /// Turns the mouse wheel over a place of the page.
-    pub fn wheel(&mut self, [x, y]: [f64; 2], down: f64) {
-        self.chromium.call(
-            "Input.dispatchMouseEvent",
-            json!({ "type": "mouseWheel", "x": x, "y": y, "deltaX": 0, "deltaY": down }),
-        );
-        self.frames();
-    }
-
-    /// Taps with a finger.
-    pub fn tap(&mut self, [x, y]: [f64; 2]) {
-        // No frame between, as for a click.
-        for (what, points) in [("touchStart", json!([{ "x": x, "y": y }])), ("touchEnd", json!([]))] {
-            self.chromium.call("Input.dispatchTouchEvent", json!({ "type": what, "touchPoints": points }));
-        }
-        self.frames();
-    }
-
-    /// A finger that comes down at one place, goes to another and is lifted there.
-    pub fn swipe(&mut self, from: [f64; 2], to: [f64; 2]) {
-        const STEPS: u32 = 12;
-        let at = |k: u32| [0, 1].map(|i| from[i] + (to[i] - from[i]) * f64::from(k) / f64::from(STEPS));
-        self.touch("touchStart", &[from]);
-        (1..=STEPS).for_each(|k| self.touch("touchMove", &[at(k)]));
-        self.touch("touchEnd", &[]);
-        self.frames();
-    }
-
-    /// What fingers do: `touchStart`, `touchMove` or `touchEnd`, and where those are that are down.
-    pub fn touch(&mut self, what: &str, fingers: &[[f64; 2]]) {
-        let points: Vec<_> =
-            fingers.iter().enumerate().map(|(id, [x, y])| json!({ "x": x, "y": y, "id": id })).collect();
-        self.chromium.call("Input.dispatchTouchEvent", json!({ "type": what, "touchPoints": points }));
-        self.frames();
     }
 
     /// What the page looks like now, in device pixels.
@@ -445,7 +319,11 @@ impl Page {
 
     /// What the page looks like now, as a PNG file.
     pub fn png(&mut self) -> Vec<u8> {
-        let shot = self.chromium.call("Page.captureScreenshot", json!({ "format": "png" }));
+        let chromium = match &mut self.browser {
+            Browser::Chromium(chromium) => chromium,
+            Browser::Driven(driven) => return driven.png(),
+        };
+        let shot = chromium.call("Page.captureScreenshot", json!({ "format": "png" }));
         let data = shot["data"].as_str().unwrap_or_default();
         let engine = base64::engine::general_purpose::STANDARD;
         engine.decode(data).expect("the browser sends base64")
@@ -453,8 +331,16 @@ impl Page {
 
     /// Errors that the console has shown so far, and exceptions that nobody caught.
     pub fn problems(&mut self) -> Vec<String> {
-        self.chromium.listen();
-        self.chromium.events.iter().filter_map(problem).collect()
+        match &mut self.browser {
+            Browser::Chromium(chromium) => {
+                chromium.listen();
+                chromium.events.iter().filter_map(problem).collect()
+            }
+            // What `host::heard` has put into the page listens.
+            Browser::Driven(driven) => {
+                serde_json::from_value(driven.eval("globalThis.problems ?? []")).expect("a list of texts")
+            }
+        }
     }
 }
 

@@ -55,6 +55,28 @@ fn an_answer_that_cannot_be_read_ends_the_helper_and_not_the_study() {
 }
 
 #[test]
+fn a_helper_that_fails_has_one_other_take_its_place() {
+    let near = Near::default();
+    let mut tuner = Tuner::new(Some(Box::new(near.clone())));
+    tuner.update(Some(&bench()), 3, false);
+    near.0.borrow_mut().others = 1;
+    tuner.work(0.0);
+    let asked = near.0.borrow().asked;
+    near.0.borrow_mut().babbles = true;
+    assert!(tuner.work(0.0), "the next frame asks the other");
+    tuner.work(0.0);
+    assert_eq!((tuner.has_helper(), tuner.trouble(), near.0.borrow().asked), (true, None, asked + 1));
+    near.0.borrow_mut().babbles = true;
+    tuner.work(0.0);
+    assert!(!tuner.has_helper() && tuner.trouble().is_some());
+    finish(&mut tuner);
+    let mut alone = Tuner::new(None);
+    alone.update(Some(&bench()), 3, false);
+    finish(&mut alone);
+    assert_eq!(alone.own(Rule::Fcd), tuner.own(Rule::Fcd));
+}
+
+#[test]
 fn a_dragged_threshold_keeps_every_run() {
     let near = Near::default();
     let mut tuner = Tuner::new(Some(Box::new(near.clone())));

@@ -1,0 +1,78 @@
+//! A page that plays and is tuned for long takes no more memory than one that was for a while.
+
+use crate::harness::{Options, Page, Renderer};
+use serde_json::{Value, json};
+
+/// By so much the program's memory may have grown, bytes: on WebGL it was 2 MiB, at once. A run kept for each thing done would take many
+/// times as much.
+const MOST: u64 = 4 << 20;
+
+/// Counts what WebGL is asked to make and not to delete, but for fences, some of which are always on their way.
+const COUNT: &str = "globalThis.objects = {}; \
+    for (const name of Object.getOwnPropertyNames(WebGL2RenderingContext.prototype)) { \
+      const [, act, kind] = /^(create|delete)([A-Z]\\w+)$/.exec(name) ?? []; \
+      if (!act || kind === 'Sync') continue; \
+      const does = WebGL2RenderingContext.prototype[name]; \
+      WebGL2RenderingContext.prototype[name] = function (...given) { \
+        if (act === 'create' || given[0]) objects[kind] = (objects[kind] ?? 0) + (act === 'create' ? 1 : -1); \
+        return does.apply(this, given); }; }";
+
+/// A round of what a person does: contacts, a filter, thresholds, another preset, a seed, while the run plays.
+const ROUND: [&str; 8] = [
+    "preset=bench&contact.disk=1",
+    "preset=bench&contact.disk=3&seed=7",
+    "preset=bench&filter.length=250",
+    "preset=bench&filter.length=600&detection.xi1=5",
+    "preset=disk-3",
+    "preset=bench&contact.disk=0",
+    "preset=bench&view=tuning&repeats=3",
+    "preset=bench&seed=3",
+];
+
+/// Goes through so many rounds, two frames for each thing.
+#[track_caller]
+fn rounds(page: &mut Page, count: usize) {
+    for link in (0..count).flat_map(|_| ROUND) {
+        page.eval(&format!("(centrode.go({}), 1)", json!(link)));
+        page.frames();
+    }
+}
+
+/// Bytes of the program's memory, and objects of WebGL by kind.
+fn taken(page: &mut Page) -> (u64, Value) {
+    page.frames();
+    let bytes = page.eval("centrode.memory.buffer.byteLength").as_u64().expect("a size");
+    (bytes, page.eval("globalThis.objects ?? {}"))
+}
+
+#[track_caller]
+fn stays_as_large(renderer: Renderer, round: usize) {
+    // No larger than it need be: software draws slowly.
+    let mut page = Page::visit(renderer, "?test", Options { size: [1000, 640], ..Options::default() });
+    page.before_scripts(COUNT);
+    let address = page.eval("location.href");
+    page.browse("about:blank");
+    page.go(address.as_str().expect("an address"));
+    page.wait("the page", |page| page.data("ready").filter(|ready| ready == "true"));
+    rounds(&mut page, round);
+    let (before, made) = taken(&mut page);
+    rounds(&mut page, 2 * round);
+    let (after, kept) = taken(&mut page);
+    println!("{before} bytes, then {after}; {made}, then {kept}");
+    assert!(after <= before + MOST, "{before} bytes have become {after}");
+    if renderer == Renderer::WebGl {
+        assert!(made["Buffer"].as_u64() > Some(0) && made["Texture"].as_u64() > Some(0), "{made}");
+        assert_eq!(kept, made, "objects of WebGL");
+    }
+    assert_eq!(page.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn a_page_at_work_stays_as_large_on_webgl() {
+    stays_as_large(Renderer::WebGl, 3);
+}
+
+#[test]
+fn a_page_at_work_stays_as_large_on_webgpu() {
+    stays_as_large(Renderer::WebGpu, 2);
+}
