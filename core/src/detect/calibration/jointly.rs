@@ -1,24 +1,38 @@
-//! Where on a chain a contact is: what several trackers say of it together, each through its own calibration filter.
+//! Where on a chain a contact is: what its trackers say of it together.
 
-use super::STATES;
+use super::ensemble::Listens;
 use super::filter::Signature;
-use super::likelihood::{Base, Grid, Row};
-use super::linear;
-use super::marginal::{
-    About, BELIEVED, CLEAR, Calibrated, Estimate, History, Tried, Weighed, about_errors, calibrate, likeliest, nominal,
-    rows, weigh,
-};
+use super::likelihood::{Base, Began, Grid, Row};
+use super::marginal::{Estimate, Place, Tried, Weighed, likeliest, rows, weigh};
+use super::sheet::{Sheet, Softness, WIDE};
 use super::signature::PLACES;
+use super::{Command, STATES};
 use crate::scenario::Kind;
-use libm::fabs;
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
-/// What planes on one segment change in the readings of every tracker.
+/// What contacts on one segment change in the readings of every tracker.
 pub trait Hypotheses: std::fmt::Debug {
-    /// How many trackers, from the base, see anything of them.
+    /// Those that began at an instant (in readings).
+    type Met: Met;
+    /// How many trackers, from the first, see anything of them.
     fn seen_by(&self) -> usize;
-    /// What planes at the [`places`](super::signature::places) of the segment that were met at an instant (in readings) change in a reading of
-    /// a tracker after it.
-    fn signature(&self, tracker: usize, began: f64, reading: usize) -> Signature<PLACES>;
+    /// Those that began at an instant (in readings).
+    fn met(&self, began: f64) -> Self::Met;
+    /// How soft the chain is where planes press.
+    fn softness(&self) -> Softness;
+    /// Whether a clamp is thought possible.
+    fn may_clamp(&self) -> bool;
+}
+
+/// What contacts that began at the same instant change in a reading of a tracker after it, at the
+/// [`places`](super::signature::places) of their segment.
+pub trait Met {
+    /// Of planes, at all [`tilts`](super::sheet::tilts).
+    fn planes(&self, tracker: usize, reading: usize) -> Signature<WIDE>;
+    /// Of clamps.
+    fn clamps(&self, tracker: usize, reading: usize) -> Signature<PLACES>;
 }
 
 /// What is asked.
@@ -28,89 +42,130 @@ pub struct Question<'a> {
     pub beginnings: &'a [usize],
     /// Beginnings that are tried between one of them and the next.
     pub parts: u32,
+    /// How many times less than it seems to, each reading says.
+    pub doubt: f64,
     /// The segment, from 0.
     pub segment: usize,
     /// Its length, m.
     pub length: f64,
+    /// The commands of its readings.
+    pub commands: &'a [Command],
+    /// Errors of its calibration before the contact, in their own units, and their standard deviations.
+    pub calibration: [[f64; STATES]; 2],
 }
 
-/// Places a contact on one segment. `None` where nothing moved, or where a calibration is beyond what was thought possible.
+/// A contact on one segment.
+#[derive(Debug, Clone)]
+pub struct Placed {
+    /// Where, and since when.
+    pub estimate: Estimate,
+    /// The likeliest tilt of a plane, rad.
+    pub tilt: f64,
+}
+
+/// Places a contact on one segment. `None` where nothing moved.
 #[must_use]
-pub fn estimate(histories: &[History], hypotheses: &dyn Hypotheses, question: &Question) -> Option<Estimate> {
+pub fn estimate<H: Hypotheses>(heard: &impl Listens, hypotheses: &H, question: &Question) -> Option<Placed> {
     let base = if question.segment == 0 { Base::Stays } else { Base::Moves };
     let grid = Grid::coarse(base);
-    let seeing = &histories[..hypotheses.seen_by()];
-    let share = 1.0 / together(seeing.len());
-    let before: Vec<_> = seeing.iter().map(nominal).collect();
-    let roughly = |began: usize| {
-        let mut row = Row::silent((began, 0.0));
-        for (tracker, (history, (innovations, _))) in seeing.iter().zip(&before).enumerate() {
-            let signature = |k| hypotheses.signature(tracker, began as f64, k);
-            row.hear(|k| &history.moments[k].stage, innovations, signature);
-        }
-        row.told(share).most(&grid)
+    let (seeing, softness) = (hypotheses.seen_by(), hypotheses.softness());
+    let known: RefCell<BTreeMap<usize, Sheet>> = RefCell::default();
+    let made = |at: f64| {
+        let met = hypotheses.met(at);
+        Sheet::new(at, heard.hear(at, seeing, |tracker, k| met.planes(tracker, k)).doubted(question.doubt), softness)
     };
-    let began = likeliest(question.beginnings, roughly)?;
-    let calibrated: Vec<Calibrated> = seeing
-        .iter()
-        .zip(&before)
-        .map(|(history, (_, states))| calibrate(history, began.saturating_sub(CLEAR), states))
-        .collect::<Option<_>>()?;
-    let beyond = |state: &f64| fabs(*state) > BELIEVED;
-    if calibrated.iter().any(|of| of.states.iter().take(super::DRIFT).any(beyond)) {
-        return None;
+    let sheet = |(whole, part): (usize, f64)| {
+        if part > 0.0 {
+            return made(whole as f64 + part);
+        }
+        let known_already = known.borrow().get(&whole).cloned();
+        known_already.unwrap_or_else(|| {
+            let sheet = made(whole as f64);
+            known.borrow_mut().insert(whole, sheet.clone());
+            sheet
+        })
+    };
+    let began = likeliest(question.beginnings, |began| sheet((began, 0.0)).largest(&grid))?;
+    let (sheets, parts) = rows(sheet, question.beginnings, began, question.parts, &grid);
+    let (planes, tilt) = tilted(&sheets, parts, &grid)?;
+    let across: Vec<Row> = sheets.iter().map(|sheet| sheet.at(0.0)).collect();
+    let mut all = vec![planes, Tried { kind: Kind::Plane, rows: across, parts: f64::from(parts) }];
+    let mut shares = vec![0.5, 0.5];
+    if hypotheses.may_clamp() {
+        let clamp = |(whole, part): (usize, f64)| {
+            let (at, met) = (whole as f64 + part, hypotheses.met(whole as f64 + part));
+            heard.hear(at, seeing, |tracker, k| met.clamps(tracker, k)).doubted(question.doubt).row(at)
+        };
+        let began = likeliest(question.beginnings, |began| clamp((began, 0.0)).most(&grid))?;
+        let (rows, parts) = rows(clamp, question.beginnings, began, question.parts, &grid);
+        all.push(Tried { kind: Kind::Clamp, rows, parts: f64::from(parts) });
+        shares.iter_mut().for_each(|share| *share *= 1.0 - CLAMPED);
+        shares.push(CLAMPED);
     }
-    let errors = |of: &Calibrated, history: &History| linear::errors(&of.states, &history.model.belief.deviations);
-    let about: Vec<About> = seeing
-        .iter()
-        .zip(&calibrated)
-        .map(|(history, of)| about_errors(history, errors(of, history), history.readings.len()))
-        .collect();
-    let row = |began: (usize, f64)| {
-        let mut row = Row::silent(began);
-        for (tracker, about) in about.iter().enumerate() {
-            let signature = |k| hypotheses.signature(tracker, began.0 as f64 + began.1, k);
-            row.hear(|k| &about.stages[k], &about.innovations, signature);
-        }
-        row.told(share)
-    };
-    let (rows, parts) = rows(row, question.beginnings, began, question.parts, &grid);
-    // One segment against another is weighed by all that was heard: what is left out for the place would be left out of one more than of the other.
-    let whole: Vec<Row> = rows.iter().map(|row| row.clone().told(1.0 / share)).collect();
-    let tried = |rows| [Tried { kind: Kind::Plane, rows, parts }];
-    let own = question.segment.min(seeing.len() - 1);
-    let commands: Vec<_> = seeing[own].moments.iter().map(|moment| moment.command).collect();
-    let deviations = linear::errors(&calibrated[own].deviations, &seeing[own].model.belief.deviations);
-    let calibration: [[f64; STATES]; 2] = [errors(&calibrated[own], &seeing[own]), deviations];
+    // All are weighed alike: what is likelier beforehand counts as if more had been tried.
+    let count = all.len() as f64;
+    all.iter_mut().zip(shares).for_each(|(tried, share)| tried.parts /= share * count);
     let beginnings = question.beginnings.len();
-    let weighed = Weighed { base, length: question.length, commands: &commands, beginnings, calibration };
-    let ratio = weigh(&tried(whole), &weighed)?.ratio;
-    Some(Estimate { ratio, ..weigh(&tried(rows), &weighed)? })
-}
-
-/// By how much the variance of what neighbouring trackers say together can exceed what it would be if their noise were independent.
-///
-/// A tracker's noise is in the readings of its own segment and, with the other sign, in those of the next, which have that of two trackers:
-/// correlations of −√½ between the first two segments and −½ between others. This is the largest eigenvalue of their matrix.
-fn together(trackers: usize) -> f64 {
-    let correlation = |i: usize, j: usize| match (i.min(j), i.abs_diff(j)) {
-        (_, 0) => 1.0,
-        (0, 1) => -std::f64::consts::FRAC_1_SQRT_2,
-        (_, 1) => -0.5,
-        _ => 0.0,
-    };
-    nalgebra::DMatrix::from_fn(trackers, trackers, correlation).symmetric_eigenvalues().max()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn neighbours_that_share_noise_say_less_than_they_seem_to() {
-        for (trackers, exact) in [(1, 1.0), (2, 1.0 + std::f64::consts::FRAC_1_SQRT_2), (3, 1.0 + libm::sqrt(0.75))] {
-            assert!((together(trackers) - exact).abs() < 1e-12, "{trackers}: {}", together(trackers));
+    let Question { length, commands, calibration, .. } = *question;
+    let weighed = Weighed { base, length, commands, beginnings, calibration };
+    let mut estimate = weigh(&all, &weighed)?;
+    let mut kinds: Vec<(Kind, f64)> = Vec::new();
+    for (kind, share) in &estimate.kinds {
+        match kinds.iter_mut().find(|(known, _)| known == kind) {
+            Some((_, sum)) => *sum += share,
+            None => kinds.push((*kind, *share)),
         }
-        assert!(together(12) < 2.0);
     }
+    if let [_, _, ..] = kinds[..]
+        && let Some((likeliest, _)) = kinds.iter().max_by(|a, b| a.1.total_cmp(&b.1))
+    {
+        // Between where a plane would be and where a clamp would be there is nothing: the interval holds both, the place is that of one.
+        all.retain(|tried| tried.kind == *likeliest);
+        let Place { mean, mode, .. } = weigh(&all, &weighed)?.place;
+        estimate.place = Place { mean, mode, ..estimate.place };
+    }
+    estimate.kinds = kinds;
+    Some(Placed { estimate, tilt })
+}
+
+/// How likely a clamp is beforehand, where one is thought possible. Half of the planes stand across the bending plane, half with any tilt.
+const CLAMPED: f64 = 0.1;
+/// Tilts are first tried at so many steps over half a turn.
+const STEPS: usize = 24;
+/// So often their steps are made smaller, at most.
+const FINER: usize = 4;
+/// As long as fewer of them count than this.
+const ENOUGH: usize = 10;
+/// A tilt whose log likelihood is this much below the best counts for nothing.
+const NEGLIGIBLE: f64 = 12.0;
+
+/// Planes of all tilts, each as likely as the others; and the likeliest tilt, rad.
+fn tilted(sheets: &[Sheet], parts: u32, grid: &Grid) -> Option<(Tried, f64)> {
+    let (mut from, mut step, mut count) = (-0.5 * PI, PI / STEPS as f64, STEPS);
+    for finer in 0.. {
+        let tilts: Vec<f64> = (0..count).map(|i| from + (i as f64 + 0.5) * step).collect();
+        let rows: Vec<Vec<(f64, Row)>> = tilts
+            .iter()
+            .map(|tilt| sheets.iter().map(|sheet| sheet.at(*tilt)).map(|row| (row.most(grid), row)).collect())
+            .collect();
+        let most: Vec<f64> =
+            rows.iter().map(|rows| rows.iter().map(|(most, _)| *most).fold(f64::NEG_INFINITY, f64::max)).collect();
+        let (likeliest, best) = most.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        if !best.is_finite() {
+            return None;
+        }
+        let counts = |most: &f64| *most > best - NEGLIGIBLE;
+        let [first, last] = [most.iter().position(counts)?, most.iter().rposition(counts)?];
+        if finer == FINER || last - first >= ENOUGH {
+            let kept = rows.into_iter().flatten().filter(|(most, _)| counts(most)).map(|(_, row)| row).collect();
+            // Each stands for a step of the half turn.
+            let parts = f64::from(parts) * PI / step;
+            return Some((Tried { kind: Kind::Plane, rows: kept, parts }, tilts[likeliest]));
+        }
+        // With what lies just beside them.
+        let wide = (last - first + 3) as f64 * step;
+        from += (first as f64 - 1.0) * step;
+        (count, step) = (STEPS, wide / STEPS as f64);
+    }
+    None
 }

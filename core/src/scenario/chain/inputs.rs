@@ -1,6 +1,7 @@
 //! What a person sets of an experiment with several segments.
 
 use crate::model::chain::Torsion;
+use crate::model::chain::path::Stands;
 use crate::scenario::motion::from_rest_to_rest;
 use crate::scenario::{Motion, Plan, Scenario, motion};
 
@@ -43,30 +44,6 @@ pub struct ChainContact {
     pub at: f64,
     /// Where it stands, and since when.
     pub stands: Stands,
-}
-
-/// Where a contact of a chain stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stands {
-    /// A plane with this unit normal in {B}, away from the robot's side, and offset (m); always.
-    Always {
-        /// n in {B}.
-        normal: [f64; 3],
-        /// n·p, m.
-        offset: f64,
-    },
-    /// A plane that holds from a time (s) on, where the backbone is then; n is turned by `tilt` (rad) about the tangent from the bending plane.
-    From {
-        /// s.
-        time: f64,
-        /// rad.
-        tilt: f64,
-    },
-    /// A clamp from a time (s) on.
-    Clamped {
-        /// s.
-        time: f64,
-    },
 }
 
 /// Which end disks carry trackers.
