@@ -32,9 +32,7 @@ use nalgebra::{SMatrix, SVector};
 /// Errors of the calibration: translation (3) and rotation (3) of the tracker's frame, relative error of L, scale and offset of the
 /// bend, offset of δ, latency, and the drift of the tracker (3).
 pub const STATES: usize = 14;
-/// The rotation of the tracker's frame about the straight backbone, among them.
-pub const TURN: usize = 5;
-/// The relative error of L.
+/// The relative error of L among them.
 pub const STRETCH: usize = 6;
 /// The relative error of the bend.
 pub const SCALE: usize = 7;

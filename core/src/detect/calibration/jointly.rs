@@ -29,7 +29,7 @@ pub trait Hypotheses: std::fmt::Debug {
 /// What contacts that began at the same instant change in a reading of a tracker after it, at the
 /// [`places`](super::signature::places) of their segment.
 pub trait Met {
-    /// Of planes, at all [`tilts`](super::sheet::tilts).
+    /// Of planes, at all [`tilts`](super::sheet::tilts) from that of the softness on.
     fn planes(&self, tracker: usize, reading: usize) -> Signature<WIDE>;
     /// Of clamps.
     fn clamps(&self, tracker: usize, reading: usize) -> Signature<PLACES>;
@@ -108,7 +108,13 @@ pub fn estimate<H: Hypotheses>(heard: &impl Listens, hypotheses: &H, question: &
     let beginnings = question.beginnings.len();
     let Question { length, commands, calibration, .. } = *question;
     let weighed = Weighed { base, length, commands, beginnings, calibration };
-    let mut estimate = weigh(&all, &weighed)?;
+    // One segment against another is weighed by all that was heard. What trackers learn of the calibration they learn from noise that they share:
+    // of the place, several are believed no more than they are on average.
+    let Estimate { ratio, evidence, .. } = weigh(&all, &weighed)?;
+    for tried in &mut all {
+        tried.rows.iter_mut().for_each(|row| *row = row.told(1.0 / seeing as f64));
+    }
+    let mut estimate = Estimate { ratio, evidence, ..weigh(&all, &weighed)? };
     let mut kinds: Vec<(Kind, f64)> = Vec::new();
     for (kind, share) in &estimate.kinds {
         match kinds.iter_mut().find(|(known, _)| known == kind) {
@@ -137,7 +143,7 @@ const FINER: usize = 4;
 /// As long as fewer of them count than this.
 const ENOUGH: usize = 10;
 /// A tilt whose log likelihood is this much below the best counts for nothing.
-const NEGLIGIBLE: f64 = 12.0;
+const NEGLIGIBLE: f64 = 20.0;
 
 /// Planes of all tilts, each as likely as the others; and the likeliest tilt, rad.
 fn tilted(sheets: &[Sheet], parts: u32, grid: &Grid) -> Option<(Tried, f64)> {

@@ -122,6 +122,13 @@ impl Row {
         Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] }
     }
 
+    /// As if everything heard told only this share of what it seems to.
+    #[must_use]
+    pub fn told(&self, share: f64) -> Self {
+        let linear = self.linear.map(|value| value * share);
+        Self { began: self.began, linear, square: self.square.map(|row| row.map(|value| value * share)) }
+    }
+
     /// Contacts of which signatures times innovations, and times each other, are known. `began` is in readings.
     #[must_use]
     pub fn heard(began: f64, linear: [f64; PLACES], square: [[f64; PLACES]; PLACES]) -> Self {

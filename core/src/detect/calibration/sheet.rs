@@ -20,16 +20,15 @@ pub const WIDE: usize = TILTS * PLACES;
 /// Tilts of a coarse look.
 const LOOK: usize = 18;
 
-/// The tilts, rad: evenly over half a turn, the first in the bending plane.
+/// The tilts, rad: evenly over half a turn from the first on.
 #[must_use]
-pub fn tilts() -> [f64; TILTS] {
-    std::array::from_fn(|i| PI * i as f64 / TILTS as f64)
+pub fn tilts(first: f64) -> [f64; TILTS] {
+    std::array::from_fn(|i| first + PI * i as f64 / TILTS as f64)
 }
 
 /// What each of the tilts counts in the signature of a plane at another one (rad).
-#[must_use]
-pub fn tilted(tilt: f64) -> [f64; TILTS] {
-    tilts().map(|at| {
+fn tilted(first: f64, tilt: f64) -> [f64; TILTS] {
+    tilts(first).map(|at| {
         let off = tilt - at;
         let (many, one) = (sin(TILTS as f64 * off), sin(off));
         // At a node, and a half turn from it.
@@ -39,27 +38,33 @@ pub fn tilted(tilt: f64) -> [f64; TILTS] {
 
 /// How soft the chain is at each place along a normal of any tilt: its mean, and factors of the cosine and the sine of twice the tilt.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Softness([[f64; 3]; PLACES]);
+pub struct Softness {
+    /// The first of the tilts, rad.
+    first: f64,
+    by_place: [[f64; 3]; PLACES],
+}
 
 impl Softness {
-    /// From that at all places and tilts, in any unit.
+    /// From that at all places and tilts, in any unit; `first` is the first of the tilts, rad.
     #[must_use]
-    pub fn of(all: &[[f64; TILTS]; PLACES]) -> Self {
-        Self(all.map(|by_tilt| {
-            let sum = |of: fn(f64) -> f64| by_tilt.iter().zip(tilts()).map(|(soft, tilt)| soft * of(tilt)).sum::<f64>();
+    pub fn of(first: f64, all: &[[f64; TILTS]; PLACES]) -> Self {
+        let by_place = all.map(|by_tilt| {
+            let sum =
+                |of: fn(f64) -> f64| by_tilt.iter().zip(tilts(first)).map(|(soft, tilt)| soft * of(tilt)).sum::<f64>();
             let count = TILTS as f64;
             [sum(|_| 1.0) / count, 2.0 * sum(|tilt| cos(2.0 * tilt)) / count, 2.0 * sum(|tilt| sin(2.0 * tilt)) / count]
-        }))
+        });
+        Self { first, by_place }
     }
 
     /// The same everywhere.
     #[must_use]
     pub fn even() -> Self {
-        Self([[1.0, 0.0, 0.0]; PLACES])
+        Self { first: 0.0, by_place: [[1.0, 0.0, 0.0]; PLACES] }
     }
 
     fn at(&self, place: usize, tilt: f64) -> f64 {
-        let [mean, cosine, sine] = self.0[place];
+        let [mean, cosine, sine] = self.by_place[place];
         let soft = mean + cosine * cos(2.0 * tilt) + sine * sin(2.0 * tilt);
         // A chain is nowhere rigid.
         soft.max(1e-3 * mean)
@@ -68,7 +73,7 @@ impl Softness {
     /// What each of the tilts counts at another one (rad) in the signature at each place.
     #[must_use]
     pub fn tilted(&self, tilt: f64) -> [[f64; PLACES]; TILTS] {
-        let (weights, nodes) = (tilted(tilt), tilts());
+        let (weights, nodes) = (tilted(self.first, tilt), tilts(self.first));
         std::array::from_fn(|i| {
             std::array::from_fn(|place| weights[i] * self.at(place, nodes[i]) / self.at(place, tilt))
         })
@@ -201,12 +206,12 @@ mod tests {
     #[test]
     fn weights_of_tilts_reproduce_what_turns_twice_and_four_times() {
         for tilt in [0.0, 0.3, 1.2, PI / 5.0, PI, -0.7] {
-            let weights = tilted(tilt);
+            let weights = tilted(0.2, tilt);
             for (name, of) in [("1", 0.0), ("cos 2α", 2.0), ("cos 4α", 4.0)] {
-                let between: f64 = tilts().iter().zip(weights).map(|(at, by)| cos(of * at) * by).sum();
+                let between: f64 = tilts(0.2).iter().zip(weights).map(|(at, by)| cos(of * at) * by).sum();
                 assert!((between - cos(of * tilt)).abs() < 1e-12, "{name} at {tilt}: {between}");
             }
-            let between: f64 = tilts().iter().zip(weights).map(|(at, by)| sin(2.0 * at) * by).sum();
+            let between: f64 = tilts(0.2).iter().zip(weights).map(|(at, by)| sin(2.0 * at) * by).sum();
             assert!((between - sin(2.0 * tilt)).abs() < 1e-12);
         }
     }
@@ -217,7 +222,7 @@ mod tests {
         let innovation = Six::from_fn(|i, _| cos(i as f64));
         let mut sums = Sums::default();
         sums.add(&signature, &innovation);
-        let (sheet, weights) = (Sheet::new(3.0, sums.whole(), Softness::even()), tilted(0.4));
+        let (sheet, weights) = (Sheet::new(3.0, sums.whole(), Softness::even()), tilted(0.0, 0.4));
         let alone = Signature::<PLACES>::from_fn(|i, j| {
             weights.iter().enumerate().map(|(a, by)| by * signature[(i, a * PLACES + j)]).sum()
         });

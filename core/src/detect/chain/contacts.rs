@@ -150,7 +150,7 @@ impl ChainJudged {
         let began = || {
             let heard = self.heard(alarm)?;
             let between = [heard.earliest(segment, heard.last())?, heard.last()];
-            heard.listen(known, between[0])?.asked(segment, between, 1, 1.0).map(|placed| placed.estimate.began)
+            heard.listen(known, between[0])?.asked(segment, between, 1, 1.0, 0.0).map(|placed| placed.estimate.began)
         };
         began().map_or(alarm - before < SAME, |began| began <= before)
     }
@@ -179,16 +179,24 @@ impl ChainJudged {
         let between = [earliest.or_else(|| heard.earliest(contact.raised_by, latest))?, latest];
         let parts = self.settings.segments[0].placing.beginnings;
         let listening = heard.listen(&contact.before, between[0])?;
-        let asked = |doubt: f64| -> Vec<Option<Placed>> {
-            (0..heard.segments()).map(|segment| listening.asked(segment, between, parts, doubt)).collect()
-        };
-        let mut each = asked(1.0);
+        let asked = |segment: usize, doubt: f64, tilt: f64| listening.asked(segment, between, parts, doubt, tilt);
+        let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);
+        let mut each: Vec<Option<Placed>> = (0..heard.segments()).map(|segment| asked(segment, 1.0, 0.0)).collect();
+        let best = each.iter().map(ratio).fold(f64::NEG_INFINITY, f64::max);
+        for (segment, placed) in each.iter_mut().enumerate() {
+            // Once more where planes stand askew.
+            if let Some(tilt) = placed.as_ref().map(|placed| placed.tilt).filter(|tilt| tilt.abs() > ASKEW)
+                && ratio(placed) > best - UNLIKELY
+            {
+                *placed = asked(segment, 1.0, tilt);
+            }
+        }
         let best = each.iter().flatten().map(|placed| placed.estimate.evidence).fold(0.0, f64::max);
         let doubt = listening.doubt(between[0], best);
         if doubt > 1.0 {
-            each = asked(doubt);
+            let tilt = |placed: &Option<Placed>| placed.as_ref().map_or(0.0, |placed| placed.tilt);
+            each = each.iter().enumerate().map(|(segment, placed)| asked(segment, doubt, tilt(placed))).collect();
         }
-        let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);
         let ratios: Vec<f64> = each.iter().map(ratio).collect();
         let (probabilities, nothing) = shares(&ratios)?;
         let segment = (0..probabilities.len()).max_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]))?;
@@ -297,6 +305,10 @@ impl ChainJudged {
     }
 }
 
+/// A plane that stands more askew than this, rad, is asked for once more, on a segment whose probability is not smaller by more than this, as a
+/// logarithm.
+const ASKEW: f64 = 0.01;
+const UNLIKELY: f64 = 12.0;
 /// Without the calibration filter, alarms of segments above within this time (s) tell of the same contact.
 const SAME: f64 = 0.5;
 

