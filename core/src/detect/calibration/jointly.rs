@@ -135,7 +135,7 @@ pub fn estimate<H: Hypotheses>(heard: &impl Listens, hypotheses: &H, question: &
 }
 
 /// How likely a clamp is beforehand, where one is thought possible. Half of the planes stand across the bending plane, half with any tilt.
-const CLAMPED: f64 = 0.1;
+const CLAMPED: f64 = 0.03;
 /// Tilts are first tried at so many steps over half a turn.
 const STEPS: usize = 24;
 /// So often their steps are made smaller, at most.
@@ -147,7 +147,10 @@ const NEGLIGIBLE: f64 = 20.0;
 
 /// Planes of all tilts, each as likely as the others; and the likeliest tilt, rad.
 fn tilted(sheets: &[Sheet], parts: u32, grid: &Grid) -> Option<(Tried, f64)> {
-    let (mut from, mut step, mut count) = (-0.5 * PI, PI / STEPS as f64, STEPS);
+    let looks = sheets.iter().map(|sheet| sheet.likeliest(grid));
+    let (middle, ..) = looks.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let (mut step, mut count) = (PI / STEPS as f64, STEPS);
+    let mut from = middle - 0.5 * (STEPS + 1) as f64 * step;
     for finer in 0.. {
         let tilts: Vec<f64> = (0..count).map(|i| from + (i as f64 + 0.5) * step).collect();
         let rows: Vec<Vec<(f64, Row)>> = tilts
@@ -166,7 +169,8 @@ fn tilted(sheets: &[Sheet], parts: u32, grid: &Grid) -> Option<(Tried, f64)> {
             let kept = rows.into_iter().flatten().filter(|(most, _)| counts(most)).map(|(_, row)| row).collect();
             // Each stands for a step of the half turn.
             let parts = f64::from(parts) * PI / step;
-            return Some((Tried { kind: Kind::Plane, rows: kept, parts }, tilts[likeliest]));
+            let turns = libm::rint(tilts[likeliest] / PI);
+            return Some((Tried { kind: Kind::Plane, rows: kept, parts }, tilts[likeliest] - PI * turns));
         }
         // With what lies just beside them.
         let wide = (last - first + 3) as f64 * step;

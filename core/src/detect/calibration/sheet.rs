@@ -17,8 +17,9 @@ pub const TILTS: usize = 7;
 /// Signatures at all tilts and places: those of the first tilt first.
 pub const WIDE: usize = TILTS * PLACES;
 
-/// Tilts of a coarse look.
-const LOOK: usize = 18;
+/// Tilts of a coarse look, and how often its step is halved in the search for the likeliest.
+const LOOK: usize = 12;
+const HALVED: u32 = 9;
 
 /// The tilts, rad: evenly over half a turn from the first on.
 #[must_use]
@@ -176,8 +177,27 @@ impl Sheet {
         Row::heard(self.began, linear, square)
     }
 
-    fn look(&self) -> impl Iterator<Item = Row> {
-        (0..LOOK).map(|i| self.at(PI * i as f64 / LOOK as f64))
+    /// The likeliest tilt (rad), planes of that, and their largest ratio: the largest of some tilts, and then beside it. A beginning must not be judged by a tilt
+    /// that is not its own.
+    #[must_use]
+    pub fn likeliest(&self, grid: &Grid) -> (f64, Row, f64) {
+        let of = |tilt: f64| {
+            let row = self.at(tilt);
+            let most = row.most(grid);
+            (tilt, row, most)
+        };
+        let looks = (1..LOOK).map(|i| of(PI * i as f64 / LOOK as f64));
+        let mut best = looks.fold(of(0.0), |best, other| if other.2 > best.2 { other } else { best });
+        let mut step = PI / LOOK as f64;
+        for _ in 0..HALVED {
+            step *= 0.5;
+            for beside in [of(best.0 - step), of(best.0 + step)] {
+                if beside.2 > best.2 {
+                    best = beside;
+                }
+            }
+        }
+        best
     }
 }
 
@@ -187,15 +207,11 @@ impl Began for Sheet {
     }
 
     fn ratios(&self, grid: &Grid) -> Vec<f64> {
-        let mut most = vec![f64::NEG_INFINITY; grid.places().len()];
-        for row in self.look() {
-            most.iter_mut().zip(row.along(grid)).for_each(|(most, here)| *most = most.max(here));
-        }
-        most
+        self.likeliest(grid).1.ratios(grid)
     }
 
     fn largest(&self, grid: &Grid) -> f64 {
-        self.look().map(|row| row.most(grid)).fold(f64::NEG_INFINITY, f64::max)
+        self.likeliest(grid).2
     }
 }
 
