@@ -210,12 +210,16 @@ mod tests {
     #[test]
     fn between_the_nodes_it_is_what_is_solved() {
         let course = course();
-        for segment in 0..3 {
-            let hypotheses = Hypotheses::new(&course, Seen::Each, segment, [0, 25], &[], 0.0).expect("solved");
+        // Strong contacts far out have more waves over the tilt than others: they are solved at the tilt that they seem to have.
+        for (segment, first) in [(0, 0.0), (1, 0.0), (2, 0.0), (2, 0.35), (2, -0.7)] {
+            let hypotheses = Hypotheses::new(&course, Seen::Each, segment, [0, 25], &[], first).expect("solved");
             let of = &hypotheses;
             for (began, reading, place, tilt) in
                 [(3.3, 74, 0.5, 0.0), (18.0, 60, 0.41, 0.35), (11.0, 30, 0.63, 1.2), (24.0, 74, 0.55, -0.7)]
             {
+                if segment == 2 && tilt != first {
+                    continue;
+                }
                 let point = course.point(&[], segment, place, began).expect("free");
                 let plane = course.plane(&point, segment, place, tilt, began);
                 let at = f64::from(reading);
@@ -226,11 +230,8 @@ mod tests {
                 let ours = (0..TILTS).fold(Six::zeros(), |sum, a| {
                     (0..PLACES).fold(sum, |sum, i| sum + signature.column(a * PLACES + i) * (tilted[a][i] * along[i]))
                 });
-                let off = ours - exact;
-                let place_off = off.fixed_rows::<3>(1).norm();
-                // Strong contacts far out have more waves over the tilt than two.
-                let most = if segment < 2 || tilt == 0.0 { 2e-6 } else { 4e-5 };
-                assert!(place_off < most, "segment {segment}, {began}, {tilt}: {off} {exact}");
+                let off = (ours - exact).fixed_rows::<3>(1).norm();
+                assert!(off < 3e-6, "segment {segment}, {began}, {tilt}: {off} of {exact}");
             }
         }
     }
