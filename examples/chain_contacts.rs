@@ -1,7 +1,7 @@
 //! How well contacts on three segments are told and placed: many runs of the preset `three-segments` with contacts around the middle of each
 //! segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md; `-- 200 tip` those of one case.
 
-#![allow(clippy::disallowed_methods, reason = "an example reads its arguments")]
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "an example reads its arguments and its clock")]
 
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;

@@ -3,6 +3,7 @@
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "it writes a picture")]
 
+use centrode::app::stages::viewport::subject::Subject;
 use centrode::app::stages::viewport::{ViewState, viewport};
 use centrode::app::{layout, theme};
 use centrode::show::track::Trace;
@@ -43,14 +44,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                         let page = ui.ctx().content_rect();
                         ui.painter().rect_filled(page, 0.0, theme::Theme::of(ui).surface);
                         let mut view = ui.new_child(egui::UiBuilder::new().max_rect(page.shrink(8.0)));
-                        viewport(
-                            &mut view,
-                            (&run, 0),
-                            &Trace::new(&run),
-                            (time, false, None),
-                            &mut state,
-                            &mut Vec::new(),
-                        );
+                        let trace = &Trace::new(&run);
+                        let subject = Subject::Single { run: &run, trace, frozen: false, placed: None };
+                        viewport(&mut view, &subject, (0, time), &mut state, &mut Vec::new());
                         layout::round(&view, page.shrink(8.0));
                     });
                 page.run_ok();

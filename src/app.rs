@@ -6,6 +6,7 @@
 //! Time comes from egui's input alone, so that a test's pictures do not move.
 
 mod apply;
+pub mod chain;
 pub mod charts;
 pub mod command;
 pub mod controls;
@@ -20,6 +21,7 @@ pub mod log;
 pub mod memo;
 pub mod message;
 pub mod mirror;
+mod page;
 pub mod panels;
 mod report;
 pub mod saving;
@@ -31,24 +33,21 @@ pub mod words;
 
 use std::collections::BTreeMap;
 
-use egui::{Rect, Ui, vec2};
+use egui::Ui;
 
-use centrode_core::detect::Method;
 use centrode_core::run::Run;
 use centrode_core::scenario::Scenario;
-use charts::plane;
-use charts::plots::{self, PlotState};
+use chain::Chain;
+use charts::plots::PlotState;
 use command::Command;
-use controls::Inputs;
 use embed::Embed;
 use helper::Helper;
 use helper::lent::Lent;
-use layout::Layout;
+use lesson::Lesson;
 use lesson::captions::{self, Captions};
-use lesson::{At, Lesson};
 use link::Sharing;
 use log::Logs;
-use memo::{Memo, Refusal};
+use memo::Memo;
 use message::Listener;
 use panels::chip::Chip;
 use panels::cover::Cover;
@@ -59,11 +58,8 @@ use stages::source::Source;
 use stages::stage::Stage;
 use stages::studies::Studies;
 use stages::tuner::Tuner;
-use stages::viewport::{self, ViewState};
-use state::{State, Tab};
-use widgets::finger;
-use words::refusal;
-use words::story::Phase;
+use stages::viewport::ViewState;
+use state::State;
 
 /// The longest step of playback, s: after a pause of the whole page the cursor does not leap.
 const LONGEST_STEP: f64 = 0.25;
@@ -96,6 +92,8 @@ pub struct App {
     state: State,
     base: Scenario,
     memo: Memo,
+    chain: Chain,
+    pictures: chain::Pictures,
     notes: BTreeMap<&'static str, String>,
     chip: Chip,
     plots: PlotState,
@@ -131,6 +129,8 @@ impl App {
         let mut app = Self {
             base: state::shipped(state.preset()),
             memo: Memo::new(&state.scenario),
+            chain: Chain::default(),
+            pictures: chain::Pictures::default(),
             sharing: Sharing::new(host.address, &state),
             state,
             notes: BTreeMap::new(),
@@ -196,6 +196,7 @@ impl App {
             || self.gallery.is_working()
             || self.lesson.is_measuring(self.state.lesson)
             || self.state.stage == Stage::Robot && self.memo.placed().is_working()
+            || self.state.stage == Stage::Chain && self.chain.is_working()
     }
 
     /// The whole page.
@@ -213,12 +214,12 @@ impl App {
                 ui.ctx().request_repaint();
             }
         }
-        self.memo.update(&self.state.scenario);
+        self.update();
         self.study(ui);
         self.place(ui);
         self.page(ui, &mut out);
         self.apply(ui.ctx(), &mut out);
-        if self.memo.update(&self.state.scenario) {
+        if self.update() {
             // Views were drawn before the controls were read: draw this frame again, with the new run.
             ui.ctx().request_discard("the scenario has changed");
         }
@@ -256,15 +257,42 @@ impl App {
         }
     }
 
-    /// One more estimate of where the contact is, for the robot's views.
+    /// Brings the runs up to date with what is set. Returns whether that had changed.
+    fn update(&mut self) -> bool {
+        let chained = self.chain.update(&self.state.chain, self.state.stage == Stage::Chain);
+        self.memo.update(&self.state.scenario) | chained
+    }
+
+    /// One more estimate of where a contact is, for the robot's views.
     fn place(&mut self, ui: &Ui) {
-        if self.state.stage == Stage::Robot && ui.ctx().current_pass_index() == 0 && self.memo.place(self.cursor()) {
+        if ui.ctx().current_pass_index() != 0 {
+            return;
+        }
+        let time = self.cursor();
+        // What is being moved is made anew in every frame: estimates wait for the pointer.
+        let moving = ui.input(|input| input.pointer.any_down());
+        let more = match self.state.stage {
+            Stage::Robot => self.memo.place(time),
+            Stage::Chain if !moving => self.chain.memo.as_mut().is_some_and(|memo| memo.work(time)),
+            _ => false,
+        };
+        if more {
             ui.ctx().request_repaint();
         }
     }
 
+    /// The run of several segments, while that is what is looked at.
+    fn chained(&self) -> Option<&chain::memo::Memo> {
+        self.chain.memo.as_ref().filter(|_| self.state.stage == Stage::Chain)
+    }
+
     fn end(&self) -> f64 {
-        memo::end(self.memo.run())
+        self.chained().map_or_else(|| memo::end(self.memo.run()), chain::memo::Memo::end)
+    }
+
+    /// Where playback opens and loops to, s.
+    fn lead_in(&self) -> f64 {
+        self.chained().map_or_else(|| self.memo.lead_in(), chain::memo::Memo::lead_in)
     }
 
     /// The cursor, inside the run.
@@ -284,186 +312,11 @@ impl App {
             self.state.time = time;
         } else if self.state.looping {
             self.captions.end();
-            self.state.time = self.memo.lead_in();
+            self.state.time = self.lead_in();
         } else {
             self.state.time = end;
             self.state.playing = false;
         }
-    }
-
-    fn page(&mut self, ui: &mut Ui, out: &mut Vec<Command>) {
-        let theme = theme::Theme::of(ui);
-        let page = ui.ctx().content_rect();
-        let mut whole = ui.new_child(egui::UiBuilder::new().id_salt("page").max_rect(page));
-        whole.set_clip_rect(page);
-        let ui = &mut whole;
-        ui.painter().rect_filled(page, 0.0, theme.surface);
-        let sheet = panels::sheet::place(ui, &self.state, self.prefers_reduced_motion, out);
-        let banner = self.logs.banner(self.memo.recorded());
-        let above = if banner.is_some() { panels::log::height(page.width()) } else { 0.0 };
-        let (top, page) = page.split_top_bottom_at_y(page.top() + above);
-        let layout = self.lay_out(ui, Layout::new(page, sheet, self.embed));
-        // A stage takes the place of the tabs, and there is no sheet.
-        let drawn = self.state.stage == Stage::Robot || layout.controls.is_some();
-        let handle = layout.handle.filter(|_| drawn);
-        finger::welcome(ui, layout.sheet);
-        let (cursor, covered) = (self.cursor(), self.is_covered());
-        let otherwise = |method: Method| (method, self.state.otherwise_si(method.threshold_key(), &self.base));
-        self.plots.otherwise = Method::ALL.iter().copied().map(otherwise).collect();
-        self.plots.marks = self.state.marks;
-        let Self {
-            state,
-            base,
-            memo,
-            notes,
-            chip,
-            plots,
-            view,
-            studies,
-            tuner,
-            comparer,
-            stages,
-            source,
-            sharing,
-            embed,
-            listener: _,
-            logs,
-            lesson,
-            captions,
-            gallery,
-            cover,
-            prefers_reduced_motion,
-        } = self;
-        let (state, run) = (&*state, memo.run());
-        let shown = memo.placed().at(cursor).and_then(|shown| shown.estimate());
-
-        if let Some(banner) = &banner {
-            panels::log::banner(ui, top, banner, out);
-        }
-        if let Some(rect) = layout.title {
-            layout::part(ui, "title", |ui| panels::title::title(ui, rect, state, gallery, out));
-        }
-        if let Some(rect) = layout.views {
-            layout::part(ui, "views", |ui| panels::views::views(ui, rect, state.stage, state.paper, out));
-        }
-        if embed.is_none() {
-            layout::part(ui, "tools", |ui| {
-                panels::title::tools(ui, layout.tools, state, layout.sheet, out);
-                lesson::menu::menu(ui, (layout.tools, layout.sheet), (lesson, state.lesson.is_some()), out);
-            });
-        }
-        panels::sheet::sheet(ui, handle.as_ref(), sheet);
-        if let Some(rect) = layout.controls {
-            let refusal = memo.refusal().map(|refused| match refused {
-                Refusal::Scenario(refused) => refusal::told(refused),
-                Refusal::Log(refused) => format!("The log does not fit what is set: {}", refused.without_flags()),
-            });
-            let log = memo.recorded();
-            let inputs = Inputs { state, base, notes, refusal, log, touch: layout.sheet };
-            layout::card(ui, "controls", rect, |ui| controls::controls(ui, &inputs, out));
-        }
-        let plate = state.lesson == Some(At::Tour(0)) && layout.transport.is_none();
-        if let Some(rect) = layout.lesson {
-            let panel = layout.controls.is_some();
-            let inputs = lesson::card::Inputs { state, base, notes, lesson, panel, touch: layout.sheet };
-            layout::card(ui, "lesson", rect, |ui| match state.lesson {
-                Some(At::Tour(_)) => lesson::card::card(ui, rect, &inputs, out),
-                _ => lesson::challenge::card::card(ui, rect, &inputs, out),
-            });
-        }
-        let robot = state.stage == Stage::Robot;
-        let whole = layout.stage();
-        if let Some(rect) = layout.view.filter(|_| plate) {
-            layout::card(ui, "plate", rect, |ui| lesson::plate::view::plate(ui, rect, lesson.plate(), out));
-        } else if robot {
-            if let Some(rect) = layout.view {
-                view.captions = captions.at(run, cursor);
-                layout::card(ui, "view", rect, |ui| {
-                    viewport::viewport(
-                        ui,
-                        (run, memo.version()),
-                        memo.trace(),
-                        (cursor, state.frozen, shown),
-                        view,
-                        out,
-                    );
-                });
-                layout::round(ui, rect);
-                chip.show(
-                    ui,
-                    rect.min + vec2(12.0, 12.0),
-                    (Phase::at(run, cursor), memo.contact(cursor)),
-                    *prefers_reduced_motion,
-                );
-            }
-        } else if whole.is_positive() {
-            let inputs = stages::Inputs {
-                stage: state.stage,
-                plan: memo.plan(),
-                log: run.is_recorded(),
-                base: (&state.preset, base),
-                source: source.as_ref(),
-                tuner,
-                comparer,
-                tuning: state.tuning,
-            };
-            layout::card(ui, "stage", whole, |ui| stages::stage(ui, whole, &inputs, studies, stages, out));
-        }
-        if let Some(rect) = layout.transport {
-            layout::card(ui, "transport", rect, |ui| {
-                panels::transport::transport(ui, rect, (state, run, cursor), out);
-            });
-        }
-        if embed.is_some() {
-            embed::tools(ui, layout.tools, layout.sheet.then_some(state.sheet), out);
-        }
-        let mut show = |ui: &mut Ui, tab: Tab, rect: Rect, out: &mut Vec<Command>| match tab {
-            Tab::Result => layout::inside(ui, "readout", rect, |ui| {
-                panels::readout::readout(ui, run, memo.recorded(), (memo.placed(), cursor));
-            }),
-            Tab::Plots => layout::inside(ui, "plots", rect.shrink(8.0), |ui| {
-                // Where they do not fit above each other they are scrolled.
-                let low = rect.width() < 796.0 && rect.height() < 430.0 && !plots.framed;
-                let content = |ui: &mut Ui| plots::plots(ui, (run, memo.version()), cursor, plots, out);
-                if low { panels::sheet::scrolled(ui, content) } else { panels::sheet::still(ui, content) }
-            }),
-            Tab::Plane => layout::inside(ui, "plane", rect.shrink(8.0), |ui| {
-                plane::plane(ui, run, memo.trace(), (cursor, state.frozen, shown), out);
-            }),
-        };
-        for (tab, rect) in [(Tab::Plane, layout.plane), (Tab::Result, layout.readout), (Tab::Plots, layout.plots)] {
-            if let Some(rect) = rect.filter(|rect| robot || !whole.contains_rect(*rect)) {
-                layout::card(ui, "card", rect, |_| ());
-                show(ui, tab, rect, out);
-            }
-        }
-        if let Some(rect) = layout.tabbed.filter(|rect| robot || !whole.contains_rect(*rect)) {
-            layout::card(ui, "tabbed", rect, |_| ());
-            let (strip, below) = layout::tab_strip(rect);
-            panels::tabs::tabs(ui, strip, state.tab, out);
-            if below.height() > SEEN {
-                show(ui, state.tab, below, out);
-            }
-        }
-        if let Some(handle) = &handle {
-            panels::sheet::handle(ui, handle, state.stop, out);
-        }
-        let by_key = cover.update(ui, covered);
-        if state.help && !state.keys {
-            words::help::help(ui, (state.sound, by_key), out);
-        }
-        if state.keys {
-            words::keys::keys(ui, by_key, out);
-        }
-        panels::share::said(ui, layout.tools, sharing.said(ui));
-        if let Some(form) = &logs.form {
-            panels::columns::columns(ui, form, out);
-        }
-        if let Some(notice) = &sharing.notice {
-            panels::notice::notice(ui, notice, out);
-        }
-        layout::part(ui, "symbols", |ui| widgets::symbol::links(ui, out));
-        widgets::focus::frame(ui);
     }
 }
 

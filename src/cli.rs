@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "the command is what reads and writes files")]
 
 mod analyze;
+mod chain;
 mod draw;
 mod estimating;
 mod figure;
@@ -20,6 +21,8 @@ mod run;
 mod study;
 mod table2;
 
+use centrode_core::scenario::chain::ChainDraft;
+use centrode_core::scenario::link::page::CHAIN;
 use centrode_core::scenario::link::{Link, Page};
 use centrode_core::scenario::preset::{self, CHAINS, PRESETS};
 use centrode_core::scenario::text::{DEFAULT_TOML, Draft};
@@ -89,22 +92,36 @@ impl ScenarioArgs {
         self.resolved(None)
     }
 
-    /// The experiment with several segments that is named; none where it has one.
-    fn chain(&self) -> Result<Option<ChainScenario>, Failure> {
-        let (place, bytes) = match (&self.file, &self.preset) {
-            (Some(path), _) => (path.display().to_string(), read(path)?),
-            (None, Some(name)) => match preset::find_chain(name) {
+    /// The experiment with several segments that is named, with its preset where it is one; none where it has one segment.
+    fn draft(&self) -> Result<Option<(ChainDraft, Option<&str>)>, Failure> {
+        let (place, bytes) = match (&self.file, &self.preset, self.link()?) {
+            (_, _, Some(link)) => {
+                let Some(chain) = link.page.chain.filter(|_| link.page.view == CHAIN) else { return Ok(None) };
+                let preset = preset::find_chain(chain.preset()).map(|preset| preset.name);
+                let draft = chain.draft.overridden(self.sets.iter().map(String::as_str));
+                let refused = |error| Failure::Input(format!("--link with --set: {error}"));
+                return draft.map(|draft| Some((draft, preset))).map_err(refused);
+            }
+            (Some(path), ..) => (path.display().to_string(), read(path)?),
+            (None, Some(name), None) => match preset::find_chain(name) {
                 Some(preset) => (format!("preset {name}"), preset.toml.as_bytes().to_vec()),
                 None => return Ok(None),
             },
-            (None, None) => return Ok(None),
+            (None, None, None) => return Ok(None),
         };
         if !ChainScenario::is_of(&bytes) {
             return Ok(None);
         }
         let place = if self.sets.is_empty() { place } else { format!("{place} with --set") };
-        let scenario = ChainScenario::from_bytes(&bytes, &self.sets);
-        scenario.map(Some).map_err(|error| Failure::Input(format!("{place}: {error}")))
+        let draft = ChainDraft::read(&bytes, &self.sets);
+        let named = self.preset.as_deref().filter(|_| self.file.is_none());
+        draft.map(|draft| Some((draft, named))).map_err(|error| Failure::Input(format!("{place}: {error}")))
+    }
+
+    /// The experiment with several segments that is named; none where it has one.
+    fn chain(&self) -> Result<Option<ChainScenario>, Failure> {
+        let Some((draft, _)) = self.draft()? else { return Ok(None) };
+        draft.scenario().map(Some).map_err(|error| Failure::Input(error.to_string()))
     }
 
     /// The scenario, from a preset where neither file nor preset is named.
@@ -133,7 +150,7 @@ impl ScenarioArgs {
         if let Some(scenario) = self.chain()? {
             let segments = scenario.segments.len();
             return Err(Failure::Input(format!(
-                "this experiment has [[segment]], {segments} of them: only `centrode run` takes it"
+                "this experiment has [[segment]], {segments} of them: only `centrode run` and `centrode analyze` take it"
             )));
         }
         let link = self.link()?;

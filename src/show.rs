@@ -2,11 +2,13 @@
 
 pub mod band;
 mod beam;
+pub mod chain;
 pub mod ink;
 mod load;
 mod loci;
 pub mod obstacle;
 pub mod paper;
+mod pen;
 mod robot;
 pub mod track;
 
@@ -19,6 +21,7 @@ use centrode_core::run::Run;
 use glam::{DMat3, DQuat, DVec3, Quat, Vec2, Vec3};
 use loci::Signs;
 use obstacle::{Obstacle, Push};
+use pen::Pen;
 pub use robot::Proportions;
 use std::f32::consts::PI;
 use track::Trace;
@@ -51,7 +54,10 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
     robot::robot(&mut scene, palette, &sizes, pose);
     let push = Push::of(run, &sizes, &shape);
     if let (Some(obstacle), Some(contact)) = (Obstacle::of(run, &sizes), run.plan.contact()) {
-        let beam = Beam { obstacle: &obstacle, sizes: &sizes, delta, let_go: obstacle::let_go(run, place) };
+        let section = Pose::new(Vec3::ZERO, Quat::from_rotation_z(-delta));
+        let (away, faint) = (obstacle.side as f32, obstacle::let_go(run, place));
+        let reach = [-1.0, 1.0].map(|end| end * beam::FITTING * sizes.disk);
+        let beam = Beam { obstacle: &obstacle, sizes: &sizes, section, away, reach, faint };
         let surface = f64::from(sizes.surface(contact.arc_length));
         beam.draw(&mut scene, palette, held.then(|| beam.touching(push.as_ref(), surface)));
         if let Some(push) = &push {
@@ -62,12 +68,13 @@ pub fn view(run: &Run, trace: &Trace, time: f64, options: &ViewOptions<'_>) -> S
         // Of the model, whose length may be another.
         let free = run.plan.segment().arc(configuration);
         let share = free.length / length;
-        robot::ghost(&mut scene, palette.model, &sizes, |s| scene_pose(&free.pose(share * f64::from(s))));
+        robot::ghost(&mut scene, palette.model, &sizes, 0.0, |s| scene_pose(&free.pose(share * f64::from(s))));
     }
     if let Some(frozen) = obstacle::frozen(run, place).filter(|_| options.frozen) {
-        robot::ghost(&mut scene, palette.constrained, &sizes, |s| scene_pose(&frozen.pose(f64::from(s))));
+        robot::ghost(&mut scene, palette.constrained, &sizes, 0.0, |s| scene_pose(&frozen.pose(f64::from(s))));
     }
-    let signs = Signs { run, trace, truth, palette, time, lift: 1.5 * sizes.disk };
+    let pen = Pen { palette, lift: 1.5 * sizes.disk, length: run.plan.segment().length as f32 };
+    let signs = Signs { run, trace, truth, time, pen };
     signs.loci(&mut scene);
     signs.axes(&mut scene);
     if let Some(truth) = truth {
@@ -130,7 +137,11 @@ const ROOM: [Vec2; 2] = [Vec2::new(-0.76, -0.73), Vec2::new(0.90, 0.93)];
 const DESIGN_LENGTH: f32 = 0.030;
 
 fn floor(run: &Run, palette: &Palette, sizes: &Proportions) -> Ground {
-    let scale = run.plan.segment().length as f32 / DESIGN_LENGTH;
+    ground(palette, sizes, run.plan.segment().length as f32 / DESIGN_LENGTH)
+}
+
+/// The floor under a robot so many times as large as that for which it was chosen.
+fn ground(palette: &Palette, sizes: &Proportions, scale: f32) -> Ground {
     Ground {
         center: Vec3::new(0.004 * scale, 0.0, sizes.floor),
         radius: 0.062 * scale,

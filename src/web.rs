@@ -278,10 +278,11 @@ pub fn wants_finger(x: f32, y: f32) -> bool {
     })
 }
 
-/// Every widget on the page as a JSON array, see [`widgets::to_json`]. Empty unless opened by a test.
+/// Every widget on the page as a JSON array, see [`widgets::to_json`]; `pixel` is how wide a pixel of the canvas is shown, CSS pixels. Empty
+/// unless opened by a test.
 #[wasm_bindgen]
-pub fn widgets() -> String {
-    widgets::to_json()
+pub fn widgets(pixel: f64) -> String {
+    widgets::to_json(pixel)
 }
 
 /// Panics in the next frame, so that a test can see what a person would. Does nothing unless opened by a test.

@@ -87,10 +87,20 @@ function leaveToElements(canvas) {
   }
 }
 
+/// Gives the canvas a pixel for each of the screen's. At a change of their ratio eframe multiplies what it has, which makes too many of them
+/// where they had been counted anew already. A pixel more or less is rounding.
+function fit(canvas) {
+  const { width, height } = canvas.getBoundingClientRect();
+  const [wide, high] = [width, height].map((side) => Math.round(side * devicePixelRatio));
+  if (Math.abs(canvas.width - wide) > 1) canvas.width = wide;
+  if (Math.abs(canvas.height - high) > 1) canvas.height = high;
+}
+
 /// A screen with other pixels: the canvas is cleared for them, and who is paused would not paint it. The interface learns of the pixels in
 /// one frame and lays out by them in the next.
 function paintOnOtherScreens(core) {
   const paint = (times) => {
+    fit(document.getElementById("canvas"));
     core.paint();
     if (times > 1) requestAnimationFrame(() => paint(times - 1));
   };

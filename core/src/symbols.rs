@@ -58,6 +58,8 @@ pub const SYMBOLS: &[Symbol] = &[
     row("phi", "φ", "bend, θ_0 − θ_L; positive toward (cos δ, −sin δ, 0)", "rad"),
     row("phi-s", "φ_s", "bend of the part below arc length s, φ s/L", "rad"),
     row("delta", "δ", "direction of the bending plane about the base's z axis", "rad"),
+    row("gamma", "γ", "angle by which a segment's secondary backbones are turned on their circle", "rad"),
+    row("u", "U", "integrals of a segment's curvature about its own x and y axes, φ (sin δ, cos δ)", "rad"),
     row("psi", "ψ", "configuration, (θ_L, δ)", "rad"),
     row("q", "q_i", "how far secondary backbone i is pushed, L_i − L", "m"),
     row("l-i", "L_i", "length of secondary backbone i", "m"),
@@ -71,6 +73,9 @@ pub const SYMBOLS: &[Symbol] = &[
     row("e", "E", "elastic energy of the segment", "J"),
     row("ep-ip", "E_PI_P", "bending stiffness of the primary backbone", "N·m²"),
     row("es-is", "E_SI_S", "bending stiffness of each secondary backbone", "N·m²"),
+    row("ei", "EI", "bending stiffness of all backbones in a segment together", "N·m²"),
+    row("gj", "GJ", "stiffness of a segment in torsion", "N·m²"),
+    row("mu", "μ", "stability margin: 1 without a force, 0 where the robot buckles", "1"),
     row("tau", "τ", "forces in the secondary backbones", "N"),
     row("tau-lc", "τ_l_c", "forces that the load cells read", "N"),
     row("epsilon-tau", "ε_τ", "relative error of a load cell, friction included", "1"),
@@ -91,6 +96,10 @@ pub const SYMBOLS: &[Symbol] = &[
     row("n", "N", "length of the moving average, in samples of the loop", "1"),
     row("c-f", "c_f", "the model's centrode, sampled, delayed and averaged as the sensor's is", "m"),
     row("xi-f", "ξ_f", "threshold of ‖c_f − c_s‖", "m"),
+    row("screw-distance", "‖f_m − f_s‖", "distance between the screw axes of model and sensor, at the disk below", "m"),
+    row("xi-d", "ξ_d", "threshold of ‖f_m − f_s‖", "m"),
+    row("screw-angle", "α", "angle between the screw axes of model and sensor", "rad"),
+    row("xi-angle", "ξ_α", "threshold of α", "rad"),
     row("xi-v", "ξ_v", "threshold of ‖ω_s‖‖c_m − c_s‖", "m/s"),
     row("nu", "ν", "innovations: readings less all that the calibration filter could predict, of unit variance", "1"),
     row("eta", "η", "errors of the calibration", ""),
@@ -140,7 +149,7 @@ pub fn within(label: &str) -> Vec<&'static Symbol> {
 pub fn spans(drawn: &str) -> Vec<(Range<usize>, &'static Symbol)> {
     let mut rest: Vec<char> = drawn.chars().collect();
     let mut found = Vec::new();
-    for symbol in SYMBOLS.iter().filter(|symbol| symbol.text.starts_with('‖')) {
+    for symbol in SYMBOLS.iter().filter(|symbol| symbol.text.contains('‖')) {
         let whole: Vec<char> = bare(symbol.text).chars().collect();
         let mut from = 0;
         while let Some(at) = rest[from..].windows(whole.len()).position(|window| window == whole) {
@@ -253,6 +262,7 @@ mod tests {
         assert_eq!(ids("Length L"), ["l"]);
         assert_eq!(ids("ξ2 (centrode)"), ["xi2"]);
         assert_eq!(ids("Load cell error ε_τ"), ["epsilon-tau"]);
+        assert_eq!(ids("α above ξ_α or ‖f_m − f_s‖ above ξ_d"), ["screw-angle", "xi-angle", "screw-distance", "xi-d"]);
         assert_eq!(ids("Arc length s (mm), force F (N), N of 250"), ["s", "f", "n"]);
     }
 }

@@ -1,7 +1,9 @@
 //! What every target does: read a file piece by piece, and make a recording of it.
 
+use centrode_core::record::log::chain::{self, ChainLog, ChainOptions, Expected};
 use centrode_core::record::log::{Commands, Format, Options, Rate, Reader, Setup, assemble};
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::preset::find_chain;
 
 /// Reads bytes as a log of a format. Nothing may panic; whether the log is refused does not matter.
 pub fn read(format: Format, bytes: &[u8]) {
@@ -20,5 +22,16 @@ pub fn read(format: Format, bytes: &[u8]) {
     let scenario = Scenario { loop_rate: 10.0, ..Scenario::default() };
     for commands in [None, Some(Commands::Motion)] {
         let _ = assemble(&log, &scenario, &Setup { rate: Rate::Scenario, commands, ..Setup::default() });
+    }
+}
+
+/// Reads bytes as a log of three trackers, in whatever format they look like. Nothing may panic; whether the log is refused does not matter.
+pub fn read_several(bytes: &[u8]) {
+    let Some(scenario) = find_chain("two-contacts").and_then(|preset| preset.chain(&[]).ok()) else { return };
+    let Ok(scenario) = scenario.at_rate(10.0) else { return };
+    let mut log = ChainLog::new(scenario.segments.len());
+    let read = chain::read("fuzzed", bytes.to_vec(), &Expected::of(&scenario), &ChainOptions::default());
+    if read.and_then(|read| log.take(read, "")).is_ok() {
+        let _ = chain::assemble(log, &scenario, &Setup::default());
     }
 }

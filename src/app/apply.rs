@@ -1,6 +1,8 @@
 //! Carrying out commands: the only place where state changes, besides the passing of time.
 
 use super::App;
+use crate::app::chain::ChainState;
+use crate::app::chain::apply::alone;
 use crate::app::command::{Command, Mark};
 use crate::app::controls::control::Control;
 use crate::app::layout::sheet::Stop;
@@ -32,7 +34,8 @@ impl App {
                 Command::ToggleLoop => self.state.looping = !self.state.looping,
                 Command::Choose(preset) => {
                     // Whoever chooses another experiment wants to see it: a figure would go on showing its own.
-                    if self.state.stage.own_preset().is_some_and(|own| own != preset.name) {
+                    let own = self.state.stage.own_preset().is_some_and(|own| own != preset.name);
+                    if own || self.state.stage == Stage::Chain {
                         self.state.stage = Stage::Robot;
                     }
                     self.choose(preset);
@@ -54,6 +57,13 @@ impl App {
                     Stage::Detectors => self.comparer.hold(held),
                     _ => self.tuner.hold(held),
                 },
+                Command::ResetAll if self.state.stage == Stage::Chain => {
+                    let chain = ChainState::of(self.state.chain.preset());
+                    let ChainState { segment, all, shown, .. } = self.state.chain;
+                    let time = self.cursor();
+                    self.load_chain(ChainState { segment, all, shown, ..chain });
+                    self.state.time = time;
+                }
                 Command::ResetAll => self.load(self.base.clone()),
                 Command::SetThreshold(method, to) => self.change(&[method.threshold_key()], |s| {
                     *s.detection.of_mut(method) = to;
@@ -98,6 +108,7 @@ impl App {
                 Command::ToggleKeys => self.state.keys = !self.state.keys,
                 Command::Log(wish) => self.wish_of_log(wish),
                 Command::Lesson(wish) => self.wish_of_lesson(ctx, wish),
+                Command::Chain(wish) => self.wish_of_chain(wish),
                 Command::Theory(symbol) => self.theory(symbol),
                 Command::Licences => self.licences(),
                 Command::Share(what) => self.share(ctx, what),
@@ -166,7 +177,7 @@ impl App {
     pub(super) fn toggle_play(&mut self) {
         self.state.playing = !self.state.playing;
         if self.state.playing && self.cursor() >= self.end() {
-            self.state.time = self.memo.lead_in();
+            self.state.time = self.lead_in();
         }
     }
 
@@ -179,6 +190,9 @@ impl App {
     /// Changes what controls (`asked`, by key) set if what comes out can be run; else says why not, beside the one of them
     /// that is refused or beside the first, and changes nothing.
     fn change(&mut self, asked: &[&'static str], change: impl FnOnce(&mut Scenario) -> Result<(), String>) {
+        if self.state.stage == Stage::Chain {
+            return self.change_chain(asked, change);
+        }
         let mut scenario = self.state.scenario.clone();
         let first = asked.first().copied().unwrap_or_default();
         let checked = change(&mut scenario).map_err(|note| (first, note)).and_then(|()| {
@@ -210,7 +224,11 @@ impl App {
     }
 
     fn switch(&mut self, control: &'static Control, on: bool) {
-        let value = self.state.otherwise(control, &self.base);
+        let value = if self.state.stage == Stage::Chain {
+            self.otherwise_of_chain(control)
+        } else {
+            self.state.otherwise(control, &self.base)
+        };
         self.change(&[control.key], |scenario| {
             match (on, value) {
                 (true, Some(value)) => control.slide(scenario, value),
@@ -222,7 +240,8 @@ impl App {
     }
 
     fn restore(&mut self, key: &'static str, copy: impl FnOnce(&Scenario, &mut Scenario)) {
-        let base = self.base.clone();
+        let chained = self.chain.base().filter(|_| self.state.stage == Stage::Chain);
+        let base = chained.map_or(&self.base, |base| alone(base, self.state.chain.segment, key)).clone();
         self.change(&[key], |scenario| {
             copy(&base, scenario);
             Ok(())

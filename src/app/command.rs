@@ -1,5 +1,6 @@
 //! What the interface asks for. Panels and views emit commands; [`crate::app::App`] applies them, and nothing else does.
 
+use crate::app::chain::apply::Wish as ChainWish;
 use crate::app::controls::control::{Choice, Control};
 use crate::app::layout::sheet::Stop;
 use crate::app::lesson::Wish;
@@ -159,6 +160,8 @@ pub enum Command {
     Log(LogWish),
     /// Do something in the tour or a challenge.
     Lesson(Wish),
+    /// Do something with segments in series.
+    Chain(ChainWish),
     /// Close the notice.
     CloseNotice,
     /// Copy what the notice says.

@@ -28,7 +28,7 @@ use centrode_core::scenario::Scenario;
 use row::Context;
 
 /// Below this height there is no foot, points.
-const LEAST: f32 = 110.0;
+pub const LEAST: f32 = 110.0;
 
 /// What the panel needs to know.
 pub struct Inputs<'a> {
@@ -70,22 +70,27 @@ pub fn controls(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     });
 }
 
-fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+/// The head of a group, by which it folds; returns whether it is open.
+pub fn header(ui: &mut Ui, name: &'static str, open: bool, touch: bool, out: &mut Vec<Command>) -> bool {
     let theme = Theme::of(ui);
-    let open = !inputs.state.folded.contains(group.name);
-    let height = if inputs.touch { row::TARGET } else { 29.0 };
+    let height = if touch { row::TARGET } else { 29.0 };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), height), Sense::click());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
-    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), open, group.name));
+    response.widget_info(|| WidgetInfo::selected(Role::Button, ui.is_enabled(), open, name));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_expanded(open));
     let shown = ui.ctx().animate_bool(response.id, open);
     let ink = if response.hovered() || response.has_focus() { theme.ink } else { theme.dim };
-    text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, group.name, fonts::strong(12.5), theme.ink);
+    text::paint(ui, rect.left_center(), Align2::LEFT_CENTER, name, fonts::strong(12.5), theme.ink);
     icon::chevron(ui.painter(), rect.right_center() - vec2(6.0, 0.0), shown, ink);
     if response.clicked() {
-        out.push(Command::Fold(group.name));
+        out.push(Command::Fold(name));
     }
-    if !open {
+    open
+}
+
+fn show_group(ui: &mut Ui, group: &'static Group, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
+    let theme = Theme::of(ui);
+    if !header(ui, group.name, !inputs.state.folded.contains(group.name), inputs.touch, out) {
         return;
     }
     ui.push_id(group.name, |ui| {
@@ -135,10 +140,14 @@ fn idle_note(group: &Group, idle: &dyn Fn(&str) -> bool) -> Option<&'static str>
 
 fn reset_all(ui: &mut Ui, inputs: &Inputs<'_>, out: &mut Vec<Command>) {
     let changed = inputs.state.scenario != *inputs.base;
+    reset_button(ui, changed, &crate::app::panels::title::name(inputs.state.preset()), out);
+}
+
+/// The button that restores a preset, by its name on the page.
+pub fn reset_button(ui: &mut Ui, changed: bool, preset: &str, out: &mut Vec<Command>) {
     let label = egui::RichText::new("Reset all").font(if changed { fonts::strong(13.0) } else { fonts::regular(13.0) });
     let button = egui::Button::new(label);
-    let tip =
-        format!("Restore the scenario of the preset “{}”", crate::app::panels::title::name(inputs.state.preset()));
+    let tip = format!("Restore the scenario of the preset “{preset}”");
     if ui.centered_and_justified(|ui| ui.add(button)).inner.on_hover_text(tip).clicked() {
         out.push(Command::ResetAll);
     }

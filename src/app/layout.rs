@@ -178,7 +178,7 @@ impl Layout {
         let plots = rest.bottom((page.height() * 0.25).clamp(180.0, 330.0));
         let transport = rest.bottom(FLAT);
         let mut side = Cut(rest.right((page.width() * 0.24).clamp(290.0, 440.0)));
-        let readout = side.bottom((side.0.height() * 0.48).clamp(254.0, 300.0).min(side.0.height() - 130.0));
+        let readout = side.bottom((side.0.height() * 0.48).clamp(262.0, 300.0).min(side.0.height() - 130.0));
         Self {
             controls: Some(controls),
             plane: Some(side.0),
@@ -224,8 +224,8 @@ impl Layout {
         let mut rest = inner(page);
         let bar = rest.top(TARGET);
         let transport = rest.bottom(if page.width() < 700.0 { TALL } else { FLAT });
-        // Beside the tools and four views that can be read.
-        let room = bar.width() - tools_width(true) - 2.0 * GAP - 196.0;
+        // Beside the tools and five views that can be read.
+        let room = bar.width() - tools_width(true) - 2.0 * GAP - 5.0 * TARGET;
         let title = (0.32 * bar.width()).clamp(150.0, 300.0).min(room.max(110.0));
         Self::plain(Bar::in_one(bar, title, true, framed), rest.0, transport)
             .with_sheet(sheet::beside(rest.0, sheet), sheet)
@@ -248,8 +248,8 @@ impl Layout {
         places.into_iter().flatten().next().map_or(0.0, |rect| rect.width())
     }
 
-    /// Makes room for the card of a lesson, as high as it needs to be where that is possible. On a desk it takes the place of the readout;
-    /// where there is room for one view only, that is the one that the lesson looks at.
+    /// Makes room for the card of a lesson, as high as it needs to be where that is possible. On a desk it takes the place of the readout,
+    /// and where that is too low that of the bending plane, too; where there is room for one view only, that is the one that the lesson looks at.
     #[must_use]
     pub fn with_lesson(self, need: f32, focus: Focus) -> Self {
         if focus == Focus::Plate {
@@ -258,6 +258,10 @@ impl Layout {
         if let (Some(plane), Some(readout)) = (self.plane, self.readout) {
             let mut side = Cut(plane.union(readout));
             let most = (side.0.height() - 165.0).max(readout.height());
+            if need > most {
+                // What is to be done is to be seen without scrolling.
+                return Self { plane: None, readout: None, lesson: Some(side.0), ..self };
+            }
             let lesson = side.bottom(need.clamp(readout.height(), most));
             return Self { plane: Some(side.0), readout: None, lesson: Some(lesson), ..self };
         }
@@ -425,6 +429,17 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_lesson_that_needs_more_has_the_whole_side() {
+        let page = Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 720.0));
+        let layout = Layout::new(page, Sheet { controls: false, at: 1.0 }, None);
+        let (plane, readout) = (layout.plane.expect("a desk"), layout.readout.expect("a desk"));
+        let short = layout.with_lesson(200.0, Focus::Robot);
+        assert!(short.plane.is_some() && short.lesson.expect("a card").top() > plane.top());
+        let long = layout.with_lesson(380.0, Focus::Robot);
+        assert_eq!((long.plane, long.lesson), (None, Some(plane.union(readout))));
     }
 
     #[test]

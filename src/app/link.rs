@@ -8,6 +8,7 @@
 use egui::Ui;
 
 use super::App;
+use crate::app::chain::ChainState;
 use crate::app::command::Share;
 use crate::app::embed::Embed;
 use crate::app::lesson::challenge::{self, CHALLENGES};
@@ -20,9 +21,11 @@ use crate::app::state::{self, State, Tuning};
 use crate::app::theme::ThemeChoice;
 use crate::app::words::{self, refusal};
 use crate::render::Pixels;
-use centrode_core::scenario::link::{Link, Page};
+use centrode_core::scenario::chain::ChainDraft;
+use centrode_core::scenario::link::{ChainLink, Link, Page};
+use centrode_core::scenario::preset;
 use centrode_core::scenario::text::Draft;
-use centrode_core::scenario::{Scenario, ScenarioError};
+use centrode_core::scenario::{ChainScenario, Scenario, ScenarioError};
 use centrode_core::study::tuning::watch::Rule;
 use centrode_core::symbols::Symbol;
 
@@ -155,8 +158,7 @@ impl Sharing {
 pub(super) fn page(state: &State, cursor: f64) -> Page {
     Page {
         view: state.stage.key(),
-        // A log may be longer than the scenario, whose address this is.
-        time: (!state.playing).then(|| rounded(cursor, state.scenario.motion.end)),
+        time: (!state.playing).then(|| stood(state, cursor)),
         speed: state.speed,
         looping: state.looping,
         rule: state.tuning.rule.name(),
@@ -166,6 +168,23 @@ pub(super) fn page(state: &State, cursor: f64) -> Page {
         tour: None,
         challenge: None,
         theme: state.theme.key(),
+        chain: chain(state),
+    }
+}
+
+/// What a link says of several segments, where they are looked at.
+fn chain(state: &State) -> Option<ChainLink> {
+    let seen = state.stage == Stage::Chain;
+    seen.then(|| ChainLink::new(&state.chain.preset, state.chain.draft.clone())).flatten()
+}
+
+/// Where the cursor stands in a link, s.
+fn stood(state: &State, cursor: f64) -> f64 {
+    match state.stage {
+        // Its run may end before its scenario does.
+        Stage::Chain => (cursor * 1e4).floor() / 1e4,
+        // A log may be longer than the scenario, whose address this is.
+        _ => rounded(cursor, state.scenario.motion.end),
     }
 }
 
@@ -234,6 +253,9 @@ impl App {
             }
         }
         let Page { view, time: _, speed, looping, rule, false_alarms, repeats, compare, theme, .. } = link.page;
+        if let Some(chain) = &link.page.chain {
+            self.link_chain(chain);
+        }
         self.state.theme = theme.and_then(ThemeChoice::named).unwrap_or(self.state.theme);
         self.state.stage = Stage::ALL.into_iter().find(|stage| stage.key() == view).unwrap_or_default();
         if let Some(only) = self.embed.and_then(Embed::stage) {
@@ -248,10 +270,45 @@ impl App {
         self.state.tuning = Tuning { rule, wish: false_alarms, repeats, compare };
     }
 
+    /// Takes what a link says of several segments, and stays at the time where playback stands.
+    fn link_chain(&mut self, link: &ChainLink) {
+        let now = &self.state.chain;
+        if (now.preset.as_str(), &now.draft) == (link.preset(), &link.draft) {
+            return;
+        }
+        let stands = (!self.state.playing).then_some(self.state.time);
+        self.take_chain(link);
+        self.state.time = stands.unwrap_or(self.state.time);
+    }
+
+    /// Shows several segments from the beginning, with what is looked at of them where they are of the same preset.
+    fn take_chain(&mut self, link: &ChainLink) {
+        let now = &self.state.chain;
+        let mut chain = preset::find_chain(link.preset()).map(ChainState::of).unwrap_or_default();
+        chain.segment = if chain.preset == now.preset { now.segment } else { chain.segment };
+        self.load_chain(ChainState { draft: link.draft.clone(), all: now.all, shown: now.shown, ..chain });
+    }
+
+    /// Opens a file with several segments: it goes back to the preset from which the least differs.
+    fn open_chain(&mut self, bytes: &[u8]) -> Result<(), String> {
+        let draft = ChainDraft::from_bytes(bytes).map_err(|refused| refusal::of_chain_file(&refused))?;
+        self.leave_lesson();
+        self.state.stage = Stage::Chain;
+        self.take_chain(&ChainLink::nearest(draft, None));
+        Ok(())
+    }
+
     /// A file has come in, chosen or dropped; or why it could not be read.
     pub fn opened(&mut self, name: &str, bytes: Result<Vec<u8>, String>) {
         let bytes = match bytes {
             Ok(bytes) if is_log(name, &bytes) => return self.log_chosen(File::here(name, bytes)),
+            Ok(bytes) if bytes.len() <= MAX_FILE && ChainScenario::is_of(&bytes) => {
+                match self.open_chain(&bytes) {
+                    Ok(()) => self.sharing.say(format!("{name} opened")),
+                    Err(why) => self.sharing.notice = Some(words::link::not_opened(name, &why)),
+                }
+                return;
+            }
             bytes => bytes,
         };
         let read = bytes.and_then(|bytes| {
@@ -273,7 +330,7 @@ impl App {
                 let own = self.state.stage.own_preset();
                 self.load_link(&link);
                 // Whoever opens a scenario wants to see it: a figure would go on showing its own.
-                if own.is_some_and(|own| own != link.preset().name) {
+                if own.is_some_and(|own| own != link.preset().name) || self.state.stage == Stage::Chain {
                     self.state.stage = Stage::Robot;
                 }
                 self.sharing.say(format!("{name} opened"));
@@ -352,7 +409,7 @@ impl App {
                 let here = |mut link: Link| {
                     // What one sees, also while it moves.
                     if self.state.lesson.is_none() {
-                        link.page.time = Some(rounded(self.cursor(), self.state.scenario.motion.end));
+                        link.page.time = Some(stood(&self.state, self.cursor()));
                     }
                     if self.sharing.address.is_empty() {
                         return link.fragment().map(|fragment| format!("#{fragment}")).map_err(|why| why.to_string());
@@ -375,8 +432,12 @@ impl App {
                 Err(why) => self.sharing.notice = Some(words::link::no_link(&why.to_string())),
             },
             Share::Save => {
-                let name = format!("centrode-{}.toml", self.state.preset);
-                let text = format!("{}{}", words::link::FILE_HEAD, self.state.scenario.to_toml());
+                let (preset, text) = match self.state.stage {
+                    Stage::Chain => (&self.state.chain.preset, self.state.chain.draft.to_toml()),
+                    _ => (&self.state.preset, self.state.scenario.to_toml()),
+                };
+                let name = format!("centrode-{preset}.toml");
+                let text = format!("{}{text}", words::link::FILE_HEAD);
                 self.sharing.hand_out(Effect::Save { name, kind: "application/toml", bytes: text.into_bytes() });
             }
             Share::OwnPage => match self

@@ -124,7 +124,7 @@ impl App {
         self.notes.clear();
         self.state.time = self.memo.lead_in();
         // Whoever opens a log wants to see it: a figure would go on showing its own.
-        if self.state.stage.section() == Section::Paper {
+        if matches!(self.state.stage.section(), Section::Paper | Section::Chain) {
             self.state.stage = Stage::Robot;
         }
         self.sharing.say(format!("{} opened", parts.file.name));

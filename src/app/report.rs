@@ -1,6 +1,7 @@
 //! What the page tells the document around it.
 
 use super::App;
+use crate::app::chain;
 use crate::app::stages::stage::Stage;
 use crate::app::words;
 use crate::app::words::story::{self, Phase};
@@ -10,6 +11,23 @@ impl App {
     #[must_use]
     pub fn report(&self) -> String {
         let (run, time) = (self.memo.run(), self.cursor());
+        if let Some(memo) = self.chained() {
+            let first = memo.told().first();
+            return serde_json::json!({
+                "state": chain::words::phase(memo, time).words().to_lowercase(),
+                "time": time,
+                "detection_time": first.map(|told| told.found.alarm),
+                "location": first.and_then(|told| told.at(time)).map(|estimate| estimate.along.mean),
+                "playing": self.state.playing,
+                "summary": chain::words::sentence(memo),
+                "said": chain::words::said(memo, time),
+                "sound": null,
+                "log": null,
+                "tuning": null,
+                "working": memo.is_working(),
+            })
+            .to_string();
+        }
         serde_json::json!({
             "state": Phase::at(run, time).words().to_lowercase(),
             "time": time,

@@ -5,6 +5,7 @@
 use std::borrow::Cow;
 
 use super::App;
+use crate::app::chain;
 use crate::app::link::Effect;
 use crate::app::stages::stage::Stage;
 use crate::app::stages::studies::{Found, REPEATS};
@@ -14,6 +15,7 @@ use centrode_core::chart::Chart;
 use centrode_core::chart::csv::csv;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::link::Page;
+use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::course::between;
 use centrode_core::study::export::{name, signed};
 use centrode_core::study::figure::Number;
@@ -39,6 +41,8 @@ pub enum Subject {
     Plots,
     /// The 3D view.
     View,
+    /// The plots of several segments, and their run.
+    Chain,
 }
 
 /// How something is saved.
@@ -98,7 +102,7 @@ impl Subject {
     #[must_use]
     pub fn on(stage: Stage) -> Option<Self> {
         match stage {
-            Stage::Robot => Some(Self::View),
+            Stage::Robot | Stage::Chain => Some(Self::View),
             Stage::Table2 => Some(Self::Table),
             Stage::Map => Some(Self::Map),
             Stage::Tuning => Some(Self::Tuning),
@@ -118,6 +122,7 @@ impl Subject {
             Self::Detectors => "detectors".into(),
             Self::Plots => "plots".into(),
             Self::View => "3D view".into(),
+            Self::Chain => "plots".into(),
         }
     }
 
@@ -130,6 +135,7 @@ impl Subject {
             Self::Table => &[Format::Svg, Format::Png, Format::Csv, Format::Latex],
             Self::Plots => &[Format::Svg, Format::Png, Format::Csv, Format::Json],
             Self::View => &[Format::Png, Format::Clear],
+            Self::Chain => &[Format::Svg, Format::Png, Format::Csv, Format::Json],
         }
     }
 
@@ -143,6 +149,7 @@ impl Subject {
             Self::Detectors => (Stage::Detectors.key(), Stage::Detectors.key()),
             Self::Plots => (Stage::Robot.key(), "run"),
             Self::View => (Stage::Robot.key(), Stage::Robot.key()),
+            Self::Chain => (Stage::Chain.key(), "run"),
         }
     }
 }
@@ -215,6 +222,7 @@ impl App {
                 let contact = self.memo.plan().scenario().contact;
                 (stem, Cow::Owned(Scenario { contact, ..self.memo.run().plan.scenario().clone() }))
             }
+            (_, Subject::Chain, _) => (&self.state.chain.preset, Cow::Borrowed(self.memo.plan().scenario())),
             // A log that is shown changes neither map nor tuning.
             _ => (&self.state.preset, Cow::Borrowed(self.memo.plan().scenario())),
         }
@@ -227,6 +235,12 @@ impl App {
             (Format::Svg | Format::Png, _) => {
                 let page = Page { view: subject.keys().0, ..self.page_made(subject) };
                 Ok(paper::svg(&signed(self.chart(subject)?, &self.made_of(subject).1, page)))
+            }
+            (Format::Json, Subject::Chain) => {
+                let memo = self.chained().ok_or(UNDONE)?;
+                let report = memo.run().report(memo.teller(), &chain::memo::AFTER);
+                let text = serde_json::to_string_pretty(&report).map_err(|error| error.to_string())?;
+                Ok(text + "\n")
             }
             (Format::Json, _) => {
                 let about = self.memo.recorded().map(|recorded| &recorded.about);
@@ -264,6 +278,7 @@ impl App {
     fn page_made(&self, subject: Subject) -> Page {
         let tuning = self.state.tuning;
         match subject {
+            Subject::Chain => Page { chain: self.link().ok().and_then(|link| link.page.chain), ..Page::default() },
             Subject::Tuning => Page {
                 rule: tuning.rule.name(),
                 false_alarms: tuning.wish,
@@ -292,6 +307,7 @@ impl App {
     fn chart(&self, subject: Subject) -> Result<Chart, String> {
         let scenario = self.made_of(subject).1;
         match subject {
+            Subject::Chain => self.chained().map(|memo| over_time(memo.run())).ok_or_else(|| UNDONE.into()),
             Subject::View => Err("The 3D view is no chart".into()),
             Subject::Plots => Ok(match self.log() {
                 Some(name) => timeline::recorded(self.memo.run(), name),

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
+use crate::app::chain::{self, ChainState};
 use crate::app::controls::control::Control;
 use crate::app::controls::table;
 use crate::app::layout::sheet::Stop;
@@ -15,7 +16,7 @@ use centrode_core::scenario::{Detectors, Method, Scenario};
 use centrode_core::study::tuning::watch::Rule;
 
 /// How long before the motion playback opens and loops, s: the rest before it shows nothing.
-const LEAD_IN: f64 = 0.4;
+pub const LEAD_IN: f64 = 0.4;
 
 /// The inputs of the page.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,6 +26,8 @@ pub struct State {
     pub preset: String,
     /// The experiment.
     pub scenario: Scenario,
+    /// The experiment with several segments.
+    pub chain: ChainState,
     /// Values of controls that are switched off, by key, as shown; they come back when switched on.
     pub remembered: BTreeMap<String, f64>,
     /// The cursor, s.
@@ -107,13 +110,20 @@ impl Default for State {
             preset: preset.name.into(),
             time: lead_in(&scenario),
             scenario,
+            chain: ChainState::default(),
             remembered: BTreeMap::new(),
             playing: true,
             speed: 1.0,
             looping: true,
             frozen: false,
             theme: ThemeChoice::System,
-            folded: table::GROUPS.iter().filter(|group| group.folded).map(|group| group.name.into()).collect(),
+            folded: table::GROUPS
+                .iter()
+                .map(|group| (group.name, group.folded))
+                .chain(chain::controls::OWN)
+                .filter(|(_, folded)| *folded)
+                .map(|(name, _)| name.into())
+                .collect(),
             stage: Stage::Robot,
             paper: Stage::PAPER[0],
             tuning: Tuning::default(),

@@ -161,7 +161,7 @@ impl Theme {
             force: color(palette.force),
             detection: color(palette.detection),
             alarm: three(0xB84F00, 0xFF7F3A, 0xA84400),
-            robot: three(0x7C8896, 0xAEBBC8, 0x5A6572),
+            robot: three(0x788491, 0xAEBBC8, 0x5A6572),
             obstacle: color(palette.stone),
             ink: color(palette.ink),
             dim: color(palette.ink_dim),
@@ -289,6 +289,13 @@ pub fn choose(ctx: &egui::Context, choice: ThemeChoice) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::charts::paint;
+    use centrode_core::chart::Chart;
+    use centrode_core::chart::layout::{Ink, Item, Page, Paint, layout};
+    use centrode_core::detect::Method;
+    use centrode_core::run::simulate;
+    use centrode_core::scenario::preset::PRESETS;
+    use centrode_core::study::course;
 
     fn contrast(a: Color32, b: Color32) -> f32 {
         let scene = |c: Color32| Color::hex(u32::from(c.r()) << 16 | u32::from(c.g()) << 8 | u32::from(c.b()));
@@ -332,10 +339,45 @@ mod tests {
                 ("edge", theme.edge),
                 ("accent", theme.accent),
             ];
-            for ground in [theme.panel, theme.raised] {
+            for ground in [theme.surface, theme.panel, theme.raised] {
                 for (name, line) in lines {
                     let found = contrast(line, ground);
                     assert!(found >= 3.0, "{name} in {:?} on {ground:?}: {found}", theme.shade);
+                }
+            }
+        }
+    }
+
+    /// What is behind the lines of a plot before alarms are armed, and in contact.
+    fn shaded(theme: &Theme) -> Vec<Color32> {
+        let run = simulate(&PRESETS[0].scenario().expect("valid")).expect("a run");
+        let chart = Chart {
+            panels: vec![course::statistic(&run, &[Method::Fcd], 0.01), course::angle(&run)],
+            ..Chart::default()
+        };
+        let drawing = layout(&chart, &Page::screen([400.0, 200.0], 12.0));
+        let fills = drawing.shapes.iter().filter_map(|item| match item {
+            Item::Fill(_, Paint { ink: Ink::Role(role), opacity }) if *opacity < 1.0 => {
+                let shade = paint::color(Ink::Role(*role), theme);
+                Some(theme.panel.lerp_to_gamma(shade, *opacity as f32))
+            }
+            _ => None,
+        });
+        fills.collect()
+    }
+
+    #[test]
+    fn lines_of_plots_stand_out_where_these_are_shaded() {
+        for theme in SHADES.map(Theme::new) {
+            let grounds = shaded(&theme);
+            assert!(grounds.len() >= 2, "{grounds:?}");
+            let likelihood = color(Palette::of(theme.shade).likelihood);
+            for line in
+                [theme.sensor, theme.force, theme.robot, theme.detection, theme.model, likelihood, theme.constrained]
+            {
+                for ground in &grounds {
+                    let found = contrast(line, *ground);
+                    assert!(found >= 3.0, "{line:?} in {:?} on {ground:?}: {found}", theme.shade);
                 }
             }
         }

@@ -3,9 +3,8 @@
 //! A long run needs no more memory than a short one, but for its events and, in JSON, its threshold crossings: 40 bytes each, and
 //! at most [`MAX_CROSSINGS`](centrode_core::study::report::MAX_CROSSINGS) of them.
 
-mod chain;
-
 use super::ScenarioArgs;
+use super::chain;
 use super::draw::{self, Format};
 use super::estimating::Estimating;
 use super::logfile::LogFile;
@@ -101,13 +100,9 @@ impl RunArgs {
 
     /// The same with several segments.
     fn chain(&self, scenario: &ChainScenario, out: &mut impl Write) -> Result<(), Failure> {
-        for (given, flag) in [(self.log.is_some(), "--log"), (self.figure.is_some(), "--figure")] {
-            if given {
-                return Err(Failure::Input(format!("{flag}: not for an experiment with several segments")));
-            }
-        }
         let (detector, after) = (self.estimating.named(), self.estimating.after()?);
-        let csv = self.csv.as_deref();
-        chain::execute(scenario, &chain::Asked { detector, after, json: self.json, csv }, out)
+        let (csv, figure) = (self.csv.as_deref(), self.figure.as_deref());
+        let asked = chain::Asked { detector, after, json: self.json, csv, figure };
+        chain::execute(scenario, &asked, self.log.as_deref(), out)
     }
 }

@@ -1,8 +1,8 @@
 //! One colour per meaning, for a light and for a dark background.
 //!
 //! The four signal colours are Okabe and Ito's, which stay apart for colour-blind readers. On a dark background blue
-//! and vermilion are lifted toward white, as printed they would sink. On a light one amber is darker in the same hue: as
-//! printed it has a contrast of 2.2 to 1 on white.
+//! and vermilion are lifted toward white, as printed they would sink. On a light one amber and green are darker in the same
+//! hue: as printed they have contrasts of 2.2 to 1 on white, and of 2.9 to 1 on the page's own grey.
 
 use super::{Color, Studio};
 
@@ -41,6 +41,8 @@ pub struct Palette {
     pub steel: Color,
     /// The primary backbone, a shade apart from the others.
     pub steel_primary: Color,
+    /// Backbones of segments in series, from the base and over again: as bright as they are thin, and of three tempers.
+    pub steels: [Color; 3],
     /// Disks.
     pub disk: Color,
     /// The orientation mark on a disk.
@@ -68,14 +70,15 @@ impl Palette {
     pub const LIGHT: Self = Self {
         studio: Studio::LIGHT,
         model: Color::hex(0x0072B2),
-        constrained: Color::hex(0xB47C00),
-        sensor: Color::hex(0x009E73),
+        constrained: Color::hex(0xAF7900),
+        sensor: Color::hex(0x00966D),
         force: Color::hex(0xA94A82),
-        likelihood: Color::hex(0x2E8FC0),
+        likelihood: Color::hex(0x2B8BBC),
         detection: Color::hex(0xD55E00),
         choice: Color::hex(0x5A47D1),
         steel: Color::hex(0xD5DBE2),
         steel_primary: Color::hex(0xF0F2F5),
+        steels: [Color::hex(0x7D8DA0), Color::hex(0xD5DBE2), Color::hex(0xD9B978)],
         disk: Color::hex(0xAEBBC8),
         mark: Color::hex(0x39424E),
         stone: Color::hex(0x69635A),
@@ -100,6 +103,7 @@ impl Palette {
         choice: Color::hex(0xA394FF),
         steel: Color::hex(0xD3DAE2),
         steel_primary: Color::hex(0xF0F3F6),
+        steels: [Color::hex(0x74879C), Color::hex(0xD3DAE2), Color::hex(0xE0BF7C)],
         disk: Color::hex(0x93A6B8),
         mark: Color::hex(0xE8EDF2),
         stone: Color::hex(0x8C8477),
@@ -168,10 +172,12 @@ mod tests {
     fn light_signals_are_okabe_and_itos() {
         let light = Palette::LIGHT;
         assert_eq!(light.model, Color::hex(0x0072B2));
-        // Amber, darker.
+        // Amber and green, darker.
         let (amber, printed) = (light.constrained, Color::hex(0xE69F00));
         assert!((amber.g / amber.r - printed.g / printed.r).abs() < 0.01 && amber.b == printed.b, "another hue");
-        assert_eq!(light.sensor, Color::hex(0x009E73));
+        let (green, printed) = (light.sensor, Color::hex(0x009E73));
+        assert!((green.b / green.g - printed.b / printed.g).abs() < 0.01 && green.r == printed.r, "another hue");
+        assert!(green.g > 0.94 * printed.g, "no darker than it has to be");
         assert_eq!(light.detection, Color::hex(0xD55E00));
     }
 }

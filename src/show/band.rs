@@ -1,6 +1,6 @@
 //! The place of a contact as a band along the backbone: as wide and as opaque as it is probable.
 
-use centrode_core::detect::calibration::marginal::Estimate;
+use centrode_core::detect::calibration::marginal::{Estimate, Place};
 
 /// More steps than this are not told apart.
 const STEPS: usize = 72;
@@ -23,11 +23,22 @@ pub struct Step {
 /// The band of an estimate, from the base on.
 #[must_use]
 pub fn steps(estimate: &Estimate) -> Vec<Step> {
-    let (posterior, place) = (&estimate.posterior, &estimate.place);
+    let most = most(&estimate.posterior);
+    steps_of(&estimate.posterior, most, [estimate.place.low, estimate.place.high])
+}
+
+/// The largest of these densities.
+pub fn most(posterior: &[[f64; 2]]) -> f64 {
+    posterior.iter().map(|[_, density]| *density).fold(0.0, f64::max)
+}
+
+/// The band of places (m) with their densities, of which `most` is the largest on the whole backbone; the interval of 95 % lies between
+/// `low` and `high` (m).
+#[must_use]
+pub fn steps_of(posterior: &[[f64; 2]], most: f64, [low, high]: [f64; 2]) -> Vec<Step> {
     let [Some(&[first, _]), Some(&[second, _])] = [posterior.first(), posterior.get(1)] else { return Vec::new() };
     let grid = second - first;
-    let most = posterior.iter().map(|[_, density]| *density).fold(0.0, f64::max);
-    let inside = |at: f64, half: f64| place.low <= at + half && at - half <= place.high;
+    let inside = |at: f64, half: f64| low <= at + half && at - half <= high;
     let shown: Vec<[f64; 2]> =
         posterior.iter().copied().filter(|&[at, density]| density > LEAST * most || inside(at, 0.5 * grid)).collect();
     let together = shown.len().div_ceil(STEPS).max(1);
@@ -42,10 +53,16 @@ pub fn steps(estimate: &Estimate) -> Vec<Step> {
     shown.chunks(together).map(step).collect()
 }
 
-/// An interval in words: its ends (m) as mm.
+/// An estimate's interval in words: its ends as mm.
 #[must_use]
 pub fn interval(estimate: &Estimate) -> String {
-    let [low, high] = [estimate.place.low, estimate.place.high].map(|end| end * 1e3);
+    between(&estimate.place)
+}
+
+/// An interval in words.
+#[must_use]
+pub fn between(place: &Place) -> String {
+    let [low, high] = [place.low, place.high].map(|end| end * 1e3);
     format!("{low:.1}–{high:.1} mm")
 }
 
@@ -53,7 +70,6 @@ pub fn interval(estimate: &Estimate) -> String {
 mod tests {
     use super::*;
     use centrode_core::detect::calibration::STATES;
-    use centrode_core::detect::calibration::marginal::Place;
 
     /// A normal density on a grid of 0.1 mm.
     fn normal(mean: f64, deviation: f64) -> Estimate {

@@ -2,10 +2,10 @@
 //!
 //! A centrode lies within the robot, so all of them shine through it; those of this instant stand before it.
 
+use super::pen::Pen;
 use super::track::{self, Spot, Trace};
 use super::{band, scene_vector};
-use crate::scene::palette::Palette;
-use crate::scene::{Color, Label, Line, Marker, Pose, Scene, Shape};
+use crate::scene::{Label, Line, Marker, Pose, Scene, Shape};
 use centrode_core::detect::calibration::marginal::Estimate;
 use centrode_core::detect::{Method, Standing};
 use centrode_core::record::Truth;
@@ -23,22 +23,16 @@ pub struct Signs<'a> {
     pub trace: &'a Trace,
     /// The truth at the instant, where it is known.
     pub truth: Option<&'a Truth>,
-    /// Colours.
-    pub palette: &'a Palette,
     /// The instant, s.
     pub time: f64,
-    /// How far signs stand before the place they mark, m: out of the robot.
-    pub lift: f32,
+    /// What they are drawn with.
+    pub pen: Pen<'a>,
 }
 
 impl Signs<'_> {
-    fn length(&self) -> f32 {
-        self.run.plan.segment().length as f32
-    }
-
     /// Loci of the fixed centrode: model (triangles), constrained (rings), sensor up to now (dots).
     pub fn loci(&self, scene: &mut Scene) {
-        let palette = self.palette;
+        let palette = self.pen.palette;
         let Trace { model, constrained, .. } = self.trace;
         self.dots(scene);
         for (locus, shape, size, color) in
@@ -57,24 +51,24 @@ impl Signs<'_> {
     fn dots(&self, scene: &mut Scene) {
         scene.markers.extend(self.trace.dots(self.time).map(|Spot { at, latest, .. }| {
             let fresh = (1.0 - (self.time - latest) / FADE).max(0.0) as f32;
-            let dot =
-                Marker::new(scene_vector(&at), Shape::Dot, 7.5, self.palette.sensor).outlined(self.palette.halo, 0.75);
+            let palette = self.pen.palette;
+            let dot = Marker::new(scene_vector(&at), Shape::Dot, 7.5, palette.sensor).outlined(palette.halo, 0.75);
             dot.faded(0.4 + 0.6 * fresh).through(0.85)
         }));
     }
 
     /// The screw axes of model and sensor now, all three centrodes, and the deviation between model and sensor.
     pub fn axes(&self, scene: &mut Scene) {
-        let palette = self.palette;
-        let half = 0.62 * self.length();
+        let (pen, palette) = (&self.pen, self.pen.palette);
+        let half = 0.62 * pen.length;
         let sample = self.run.sample_at(self.time);
         if let Some(held) = track::constrained(self.run, self.truth).as_ref().map(scene_vector) {
-            scene.markers.push(self.sign(held, Shape::Ring, 15.0, palette.constrained));
+            scene.markers.push(pen.sign(held, Shape::Ring, 15.0, palette.constrained));
         }
         let Some(model) = track::model(self.run, &sample).as_ref().map(scene_vector) else { return };
         let (s, c) = self.run.commanded(self.run.place(self.time)).sin_cos_delta();
-        self.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
-        let triangle = self.sign(model, Shape::Triangle, 15.0, palette.model);
+        pen.axis(scene, model, Vec3::new(s as f32, c as f32, 0.0) * half, palette.model);
+        let triangle = pen.sign(model, Shape::Triangle, 15.0, palette.model);
         let Some(sensor) = track::sensed(self.run, &sample).as_ref().map(scene_vector) else {
             scene.markers.push(triangle);
             return;
@@ -82,40 +76,23 @@ impl Signs<'_> {
         let (deviation, armed) = (sample.judgement.deviation, track::standing(self.run, &sample) == Standing::Counts);
         let strength = if armed { 1.0 } else { 0.45 };
         let along = scene_vector(&sample.motion.twist.angular).normalize_or_zero() * half;
-        self.axis(scene, sensor, along, palette.sensor.alpha(strength));
+        pen.axis(scene, sensor, along, palette.sensor.alpha(strength));
         if armed {
             let settings = &self.run.plan.scenario().detection;
             let over = settings.judges(Method::Fcd) && settings.xi2.value().is_some_and(|xi2| deviation > xi2);
             let color = if over { palette.detection } else { palette.ink };
-            for (width, color) in [(6.0, palette.halo.alpha(0.9)), (3.0, color)] {
-                scene.lines.push(Line::new(vec![model, sensor], width, color).through(0.85).lifted(self.lift));
-            }
-            scene.labels.push(Label {
-                anchor: 0.5 * (model + sensor),
-                offset: Vec2::new(16.0, 14.0),
-                text: format!("{:.1} mm", deviation * 1e3),
-                color,
-            });
+            pen.deviation(scene, [model, sensor], color);
+            pen.distance(scene, [model, sensor], deviation, color);
         }
         scene.markers.push(triangle);
-        scene.markers.push(self.sign(sensor, Shape::Dot, 18.0, palette.sensor).faded(strength));
-    }
-
-    /// A sign of this instant.
-    fn sign(&self, at: Vec3, shape: Shape, size: f32, color: Color) -> Marker {
-        Marker::new(at, shape, size, color).outlined(self.palette.halo, 1.75).through(0.9).lifted(self.lift)
-    }
-
-    fn axis(&self, scene: &mut Scene, at: Vec3, along: Vec3, color: Color) {
-        let path = vec![at - along, at + along];
-        scene.lines.push(Line::new(path, 2.0, color).dashed(0.075 * self.length(), 0.72).through(0.6));
+        scene.markers.push(pen.sign(sensor, Shape::Dot, 18.0, palette.sensor).faded(strength));
     }
 
     /// The place on the backbone that the estimate names, `location` m from the base, with its label off the robot.
     pub fn estimate(&self, scene: &mut Scene, pulse: f32, [at, off]: [Vec3; 2], location: f64) {
-        let color = self.palette.detection;
-        scene.lines.push(Line::new(vec![at, off], 1.5, color).through(0.9).lifted(self.lift));
-        scene.markers.push(self.sign(at, Shape::Diamond, 14.0, color).pulsing(pulse));
+        let color = self.pen.palette.detection;
+        scene.lines.push(Line::new(vec![at, off], 1.5, color).through(0.9).lifted(self.pen.lift));
+        scene.markers.push(self.pen.sign(at, Shape::Diamond, 14.0, color).pulsing(pulse));
         scene.labels.push(Label {
             anchor: off,
             offset: Vec2::new(-2.0, -2.0),
@@ -127,25 +104,14 @@ impl Signs<'_> {
     /// Where the calibration filter places the contact on the backbone, whose poses `pose` gives by arc length (m); the label stands
     /// `aside` (m) from the likeliest place.
     pub fn band(&self, scene: &mut Scene, placed: &Estimate, pose: impl Fn(f64) -> Pose, aside: Vec3) {
-        let color = self.palette.constrained;
-        for step in band::steps(placed) {
-            let ends = [step.at - step.half, step.at + step.half].map(|s| pose(s).position);
-            let width = 7.0 + 9.0 * step.strength;
-            let line = Line::new(ends.to_vec(), width, color.alpha(step.opacity));
-            scene.lines.push(line.through(0.9).lifted(self.lift));
-        }
-        // The ends of the interval, so that a narrow one is seen.
-        let across = aside.normalize_or_zero() * 0.055 * self.length();
-        for end in [placed.place.low, placed.place.high].map(|s| pose(s).position) {
-            let line = Line::new(vec![end - across, end + across], 2.0, color);
-            scene.lines.push(line.through(0.9).lifted(self.lift));
-        }
+        self.pen.band(scene, &band::steps(placed), &pose);
+        self.pen.ends(scene, [placed.place.low, placed.place.high].map(|s| pose(s).position), aside);
         let at = pose(placed.place.mode);
         scene.labels.push(Label {
             anchor: at.point(-aside),
             offset: Vec2::new(2.0, 2.0),
             text: band::interval(placed),
-            color: self.palette.ink,
+            color: self.pen.palette.ink,
         });
     }
 }

@@ -60,35 +60,16 @@ impl Obstacle {
         let position = met.pose(contact.arc_length).position;
         let touches = Planar::new(position.x, position.z);
         let slope = contact.bend * contact.arc_length / length;
-        let toward = normal(slope) * contact.side;
-        let along = Planar::new(-toward.y, toward.x);
-        let (surface, beam) = (f64::from(sizes.surface(contact.arc_length)), f64::from(sizes.beam));
-        let away = |distance: f64| touches + toward * distance;
-        let arm = |distance: f64, below: f64| {
-            (away(surface + distance) - tangent(slope) * (below * f64::from(sizes.disk)), ARM * beam)
-        };
-        let (bar, fittings) = match contact.touch.as_deref().map(Touch::surface) {
-            None => {
-                // The jaws hold the rim between them, clear of the backbones.
-                let [gap, thick] = [0.52, 1.1].map(|share| share * f64::from(sizes.thickness()));
-                let (near, far) = (-0.8 * f64::from(sizes.rim(contact.arc_length)), 1.8 * beam);
-                let jaw = |end: f64| Piece::Bar {
-                    center: away(surface + 0.5 * (near + far)) + along * (end * (gap + 0.5 * thick)),
-                    half: [0.5 * (far - near), 0.5 * thick],
-                };
-                (arm(far, 0.0), vec![jaw(-1.0), jaw(1.0)])
-            }
-            Some(Surface::Plane) => {
-                let half = [0.25 * beam, PLATE * f64::from(sizes.disk)];
-                // Below its middle, clear of the part that bends over it.
-                (arm((0.4 + ARM) * beam, 0.3), vec![Piece::Bar { center: away(surface + half[0]), half }])
-            }
+        let (surface, rim) = (sizes.surface(contact.arc_length), sizes.rim(contact.arc_length));
+        let met = Met { touches, slope, side: contact.side, surface: surface.into(), rim: rim.into() };
+        Some(match contact.touch.as_deref().map(Touch::surface) {
+            None => met.jaws(sizes),
+            Some(Surface::Plane) => met.plate(sizes),
             Some(Surface::Cylinder { rounding }) => {
                 let reach = rounding * length;
-                ((away(reach), reach - envelope(contact, sizes, length)), Vec::new())
+                met.rod(reach, reach - envelope(contact, sizes, length))
             }
-        };
-        Some(Self { touches, slope, side: contact.side, bar, fittings })
+        })
     }
 
     /// The whole cross-section, what touches last.
@@ -103,6 +84,70 @@ impl Obstacle {
         let normal = normal(self.slope) * across;
         let tangent = tangent(self.slope) * along;
         [center - normal - tangent, center + normal - tangent, center + normal + tangent, center - normal + tangent]
+    }
+}
+
+/// Where a backbone is as it is met, in the plane of the cross-section.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Met {
+    /// The point of the backbone, m.
+    pub touches: Planar,
+    /// Slope there, rad.
+    pub slope: f64,
+    /// +1 where what it meets stands on the side of larger bends, −1 on the other.
+    pub side: f64,
+    /// How far the robot's side is from the backbone there, m.
+    pub surface: f64,
+    /// How far a disk's rim stands out there, m; 0 between disks.
+    pub rim: f64,
+}
+
+impl Met {
+    fn toward(&self) -> Planar {
+        normal(self.slope) * self.side
+    }
+
+    /// So far from the backbone, m.
+    fn away(&self, distance: f64) -> Planar {
+        self.touches + self.toward() * distance
+    }
+
+    /// The bar that bears what touches: so far beyond the robot's side (m), and below it by a share of a disk's radius.
+    fn arm(&self, sizes: &Proportions, distance: f64, below: f64) -> (Planar, f64) {
+        let at = self.away(self.surface + distance) - tangent(self.slope) * (below * f64::from(sizes.disk));
+        (at, ARM * f64::from(sizes.beam))
+    }
+
+    fn obstacle(self, bar: (Planar, f64), fittings: Vec<Piece>) -> Obstacle {
+        let Self { touches, slope, side, .. } = self;
+        Obstacle { touches, slope, side, bar, fittings }
+    }
+
+    /// A clamp: its jaws hold the rim between them, clear of the backbones.
+    pub fn jaws(self, sizes: &Proportions) -> Obstacle {
+        let toward = self.toward();
+        let along = Planar::new(-toward.y, toward.x);
+        let [gap, thick] = [0.52, 1.1].map(|share| share * f64::from(sizes.thickness()));
+        let (near, far) = (-0.8 * self.rim, 1.8 * f64::from(sizes.beam));
+        let jaw = |end: f64| Piece::Bar {
+            center: self.away(self.surface + 0.5 * (near + far)) + along * (end * (gap + 0.5 * thick)),
+            half: [0.5 * (far - near), 0.5 * thick],
+        };
+        self.obstacle(self.arm(sizes, far, 0.0), vec![jaw(-1.0), jaw(1.0)])
+    }
+
+    /// A plate, on an arm below its middle: clear of the part that bends over it.
+    pub fn plate(self, sizes: &Proportions) -> Obstacle {
+        let beam = f64::from(sizes.beam);
+        let half = [0.25 * beam, PLATE * f64::from(sizes.disk)];
+        let plate = Piece::Bar { center: self.away(self.surface + half[0]), half };
+        self.obstacle(self.arm(sizes, (0.4 + ARM) * beam, 0.3), vec![plate])
+    }
+
+    /// A rod whose axis is so far from the backbone, m.
+    fn rod(self, distance: f64, radius: f64) -> Obstacle {
+        let bar = (self.away(distance), radius);
+        self.obstacle(bar, Vec::new())
     }
 }
 

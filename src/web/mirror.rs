@@ -95,8 +95,7 @@ impl egui::Plugin for Plugin {
         let Some(update) = output.platform_output.accesskit_update.take() else { return };
         self.send(ctx, &update);
         if TEST.get() {
-            // Bounds are in points; the page counts in CSS pixels.
-            widgets::keep(update, f64::from(ctx.zoom_factor()));
+            widgets::keep(update, f64::from(ctx.pixels_per_point()));
         }
     }
 }

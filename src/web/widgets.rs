@@ -12,21 +12,22 @@ thread_local! {
     static LAST: RefCell<Option<(TreeUpdate, f64)>> = const { RefCell::new(None) };
 }
 
-/// Keeps the accessibility tree of the last frame, and how many CSS pixels a point is.
+/// Keeps the accessibility tree of the last frame, and how many pixels of the canvas a point is.
 pub fn keep(update: TreeUpdate, scale: f64) {
     LAST.set(Some((update, scale)));
 }
 
-/// `[{ id, role, label, value, number, min, max, step, on, disabled, focused, bounds: [x, y, width, height] }]`, bounds in CSS pixels.
-/// What a widget does not have is left out.
-pub fn to_json() -> String {
+/// `[{ id, role, label, value, number, min, max, step, on, disabled, focused, bounds: [x, y, width, height] }]`, bounds where they
+/// are seen, in CSS pixels: a pixel of the canvas is `pixel` of them. What a widget does not have is left out.
+pub fn to_json(pixel: f64) -> String {
     LAST.with_borrow(|last| {
-        let Some((update, scale)) = last else {
+        let Some((update, pixels)) = last else {
             return "[]".to_owned();
         };
+        let scale = pixels * pixel;
         let nodes: HashMap<NodeId, &Node> = update.nodes.iter().map(|(id, node)| (*id, node)).collect();
         let list: Vec<Value> =
-            update.nodes.iter().map(|(id, node)| describe(*id, node, &nodes, update.focus, *scale)).collect();
+            update.nodes.iter().map(|(id, node)| describe(*id, node, &nodes, update.focus, scale)).collect();
         Value::Array(list).to_string()
     })
 }

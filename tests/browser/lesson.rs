@@ -19,15 +19,15 @@ fn address(page: &mut Page) -> String {
 #[test]
 fn a_step_is_linked_to_noticed_and_kept_over_a_reload() {
     let mut page = Page::open(Renderer::WebGl, "?test#preset=disk-3&seed=7&tour=5", Options::default());
-    wait_for(&mut page, "Step 5 of 10");
+    wait_for(&mut page, "Step 5 of 13");
     wait_for(&mut page, "To do: ");
     page.type_number("ξ2 (centrode)", "1.1");
     wait_for(&mut page, "Done. That is a false alarm");
     page.click("Button", "Next");
-    wait_for(&mut page, "Step 6 of 10");
+    wait_for(&mut page, "Step 6 of 13");
     page.wait("the step in the address", |page| address(page).ends_with("#preset=disk-3&seed=7&tour=6").then_some(()));
     page.reload();
-    wait_for(&mut page, "Step 6 of 10");
+    wait_for(&mut page, "Step 6 of 13");
     assert_eq!(page.eval("JSON.parse(localStorage['centrode.progress']).tour"), 6);
     page.click("Button", "Leave tour");
     page.wait("what was set", |page| (page.widget("Slider", "Seed").number == Some(7.0)).then_some(()));
@@ -70,6 +70,6 @@ fn a_browser_that_keeps_nothing_says_so_and_goes_on() {
     page.click("Button", "Leave challenges");
     page.click("Button", "Learn");
     page.click("MenuItem", "Tour");
-    wait_for(&mut page, "Step 1 of 10");
+    wait_for(&mut page, "Step 1 of 13");
     assert_eq!(page.problems(), Vec::<String>::new());
 }

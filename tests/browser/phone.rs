@@ -57,18 +57,30 @@ fn is_whole(page: &mut Page, size: [u32; 2], ratio: f64) {
     page.frames();
 }
 
+/// Where the button of the help is seen, CSS pixels, once the page has come to rest.
+fn help(page: &mut Page) -> [f64; 4] {
+    (0..4).for_each(|_| page.frames());
+    page.widget("Button", "Help").bounds.expect("a place")
+}
+
 #[test]
 fn every_size_is_drawn_to_the_pixel_and_nothing_is_off_the_screen() {
     let mut page = open(Options { size: SIZES[0], dark: true, ..Options::default() }, "?test#preset=bench&t=6.4");
     for size @ [width, height] in SIZES {
         page.resize(size);
         // A browser that draws in software takes seconds for each frame of more.
-        let ratios: &[f64] = if size == SIZES[0] { &[1.0, 2.0, 3.0] } else { &[1.0] };
+        let ratios: &[f64] = if size == SIZES[0] { &[1.0, 2.0, 3.0, 1.0] } else { &[1.0] };
+        let mut placed = Vec::new();
         for &ratio in ratios {
             page.emulate(ratio);
             is_whole(&mut page, size, ratio);
             keep(&mut page, &format!("{width}x{height}-{ratio}-dark"));
+            // To take a picture, the browser goes to the ratio of its screen and comes back.
+            placed.push(help(&mut page));
+            is_whole(&mut page, size, ratio);
         }
+        let apart = |place: &[f64; 4]| (0..4).any(|side| (place[side] - placed[0][side]).abs() > 1.0);
+        assert!(!placed.iter().any(apart), "the help moves with the pixels: {placed:?} at {ratios:?}");
     }
     assert_eq!(page.problems(), Vec::<String>::new());
     // A screen that has these pixels, and does not only say so.

@@ -1,4 +1,6 @@
 //! Writes pictures of the page: desk and phone, light and dark. Run by `cargo xtask shot --out DIR`.
+//!
+//! With fragments of an address (`tour=4`, `preset=bench&theme=projector`), of what each of them opens, at rest.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "a tool writes files and waits for a browser")]
 
@@ -12,10 +14,15 @@ fn main() {
     let mut arguments = std::env::args_os().skip(1);
     let out = PathBuf::from(arguments.next().expect("a folder for the pictures"));
     let at: f64 = arguments.next().and_then(|text| text.to_str()?.parse().ok()).unwrap_or(7.0);
+    let fragments: Vec<String> = arguments.filter_map(|text| text.into_string().ok()).collect();
     let desk = Options { size: [1440, 900], ..Options::default() };
     for (name, options) in [("desk", desk), ("phone", Options::phone())] {
         for (shade, dark) in [("light", false), ("dark", true)] {
             let options = Options { dark, ..options };
+            if !fragments.is_empty() {
+                linked(&fragments, options, &out, &format!("{name}-{shade}"));
+                continue;
+            }
             let mut page = Page::open(Renderer::WebGl, "?test", options);
             page.wait("the time of the picture", |page| page.number("time").filter(|time| *time >= at));
             write(&mut page, &out, &format!("{name}-{shade}"));
@@ -37,6 +44,28 @@ fn main() {
             wait_for(&mut page, "no-gpu");
             write(&mut page, &out, &format!("{name}-{shade}-no-gpu"));
         }
+    }
+}
+
+/// Pictures of what these fragments open, one after the other on the same page.
+fn linked(fragments: &[String], options: Options, out: &Path, name: &str) {
+    let mut page = Page::open(Renderer::WebGl, "?test", Options { still: true, ..options });
+    for fragment in fragments {
+        page.eval(&format!("centrode.go({})", serde_json::json!(fragment)));
+        // What a study finds comes bit by bit.
+        let mut before = Vec::new();
+        page.wait("the page to rest", |page| {
+            (0..4).for_each(|_| page.frames());
+            let now = page.png();
+            let rests = now == before;
+            before = now;
+            rests.then_some(())
+        });
+        let plain = |c: char| if c.is_ascii_alphanumeric() || c == '.' { c } else { '-' };
+        write(&mut page, out, &format!("{name}-{}", fragment.chars().map(plain).collect::<String>()));
+    }
+    for problem in page.problems() {
+        println!("  console: {problem}");
     }
 }
 

@@ -71,7 +71,9 @@ fn its_landmarks_and_names_are_there() {
     for (selector, wanted) in [("html[lang=en]", 1), ("main", 1), ("nav[aria-label]", 1), ("h1", 1), ("header", 1)] {
         assert_eq!(count(&mut page, selector), wanted, "{selector}");
     }
-    assert_eq!(count(&mut page, ".equation[aria-label]"), 24);
+    let equations = count(&mut page, ".equation");
+    assert!(equations > 30, "{equations}");
+    assert_eq!(count(&mut page, ".equation[aria-label]"), equations);
     assert_eq!(count(&mut page, "svg:not([role=img])"), 0);
     let untitled =
         page.eval("[...document.querySelectorAll('svg')].filter(e => !e.querySelector('title')?.textContent).length");
@@ -136,4 +138,27 @@ fn a_reader_hears_of_each_symbol_once_behind_everything_else() {
     assert_eq!(page.eval(&regions), "Symbols");
     let last = "[...document.querySelectorAll('section > h2')].at(-1).textContent";
     assert_eq!(page.eval(last), "Symbols");
+}
+
+#[test]
+fn a_tap_names_a_symbol_and_its_note_leads_to_the_theory() {
+    let options = Options { size: [390, 844], phone: true, still: true, ..Options::default() };
+    let mut page = Page::open(Renderer::WebGl, "?test#preset=bench&t=6.4", options);
+    page.eval("window.open = (address) => { window.opened = String(address); return null; }; 1");
+    let at = page.widget("RadioButton", "Plots").at(0.5);
+    page.tap(at);
+    let name = "threshold of the centrode deviation";
+    let symbol = page.widget("Link", &format!("Theory: ξ2, {name}")).at(0.5);
+    page.tap(symbol);
+    page.wait("its name", |page| {
+        page.widgets().iter().any(|widget| widget.value.starts_with(&format!("ξ2: {name}"))).then_some(())
+    });
+    assert_eq!(page.eval("window.opened ?? ''"), "", "a finger is told first");
+    let on = page.widget("Button", "Its place in the theory");
+    let [_, _, width, height] = on.bounds.expect("in sight");
+    assert!(width.min(height) >= 43.9, "{width} × {height}");
+    page.tap(on.at(0.5));
+    let address = page.wait("a tab", |page| page.eval("window.opened ?? null").as_str().map(str::to_owned));
+    assert!(address.ends_with("/deep/path/theory.html#sym-xi2"), "{address}");
+    assert_eq!(page.problems(), Vec::<String>::new());
 }

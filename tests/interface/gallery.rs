@@ -1,7 +1,7 @@
 //! The presets as a gallery, headless.
 
 use crate::support::{DESK, LOW, PHONE, TABLET, app, click, finish, fits, page_of};
-use centrode_core::scenario::preset::PRESETS;
+use centrode_core::scenario::preset::{CHAINS, PRESETS};
 use egui::Key;
 use egui::accesskit::Role;
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -14,12 +14,12 @@ fn every_preset_is_there_with_its_sentence_and_chosen_by_a_click() {
         finish(&mut page);
         fits(&page, size, "gallery");
         let options: Vec<_> = page.query_all_by_role(Role::ListBoxOption).collect();
-        assert_eq!(options.len(), PRESETS.len(), "{size}");
-        for preset in PRESETS {
+        assert_eq!(options.len(), PRESETS.len() + CHAINS.len(), "{size}");
+        for preset in PRESETS.iter().chain(CHAINS) {
             let told = |text: Option<String>| text.is_some_and(|text| text == preset.summary());
             assert!(options.iter().any(|option| told(option.accesskit_node().description())), "{}", preset.name);
         }
-        for group in ["The paper", "Noise", "Touch", "Detection", "Odd"] {
+        for group in ["The paper", "Noise", "Touch", "Detection", "Odd", "Several segments"] {
             page.get_by_role_and_label(Role::Heading, group);
         }
         page.get_by_role_and_label(Role::ListBoxOption, "Disk 1").click();

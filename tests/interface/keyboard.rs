@@ -97,7 +97,9 @@ fn every_widget_of_every_view_is_framed() {
         let mut page = page_of(DESK);
         show(&mut page, stage.name());
         let count = walk(&mut page, Shade::Dark, stage.name());
-        assert!(count > 40, "{stage:?}: {count} widgets");
+        // Of several segments few groups are in sight at once.
+        let least = if stage == Stage::Chain { 30 } else { 40 };
+        assert!(count > least, "{stage:?}: {count} widgets");
     }
 }
 

@@ -112,9 +112,21 @@ pub fn do_it(page: &mut Page, step: usize) {
             assert!(!done(page, 8));
             slide(page, "Frame z", 3.0);
         }
-        _ => {
+        9 => {
             slide(page, "Time", 6.2);
             finish(page);
+        }
+        10 => {
+            slide(page, "Time", 5.2);
+            assert!(!done(page, 10), "nothing has alarmed yet");
+            slide(page, "Time", 6.0);
+            finish(page);
+        }
+        11 => slide(page, "Time", 8.0),
+        _ => {
+            slide(page, "Time", 5.0);
+            assert!(!done(page, 12));
+            slide(page, "Time", 10.0);
         }
     }
     page.run_steps(2);
@@ -216,12 +228,12 @@ fn a_step_is_linked_to_and_what_was_set_stands_in_the_same_link() {
 
 #[test]
 fn a_link_to_a_step_that_does_not_exist_says_which_there_are() {
-    for fragment in ["tour=0", "tour=11", "tour=two", "tour=-1"] {
+    for fragment in ["tour=0", "tour=14", "tour=two", "tour=-1"] {
         let page = linked(DESK, fragment);
         assert_eq!(step(&page), None);
         let notice = app(&page).notice().expect("a notice");
         assert!(
-            notice.details.contains("tour") && notice.details.contains("a whole number from 1 to 10"),
+            notice.details.contains("tour") && notice.details.contains(&format!("a whole number from 1 to {STEPS}")),
             "{notice:?}"
         );
     }
@@ -302,7 +314,7 @@ fn another_view_can_be_looked_at_in_every_step() {
             for view in ["Map", "Paper", "Tuning", "Robot"] {
                 page.get_by_role_and_label(Role::Tab, view).click();
                 page.run_steps(3);
-                assert!(page.query_by_label_contains("of 10: ").is_some(), "{size}: {view}");
+                assert!(page.query_by_label_contains(&format!("of {STEPS}: ")).is_some(), "{size}: {view}");
                 page.check_accessibility();
             }
         }

@@ -27,7 +27,7 @@ fn click(page: &mut Page, label: &str) {
     page.run_steps(6);
 }
 
-fn bytes(name: &str) -> Vec<u8> {
+pub fn bytes(name: &str) -> Vec<u8> {
     fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/logs").join(name)).expect(name)
 }
 
@@ -57,7 +57,7 @@ fn settle(page: &mut Page) {
 }
 
 #[track_caller]
-fn drop_log(page: &mut Page, name: &str, bytes: Vec<u8>) {
+pub fn drop_log(page: &mut Page, name: &str, bytes: Vec<u8>) {
     handle(page).opened(name, Ok(bytes));
     settle(page);
 }

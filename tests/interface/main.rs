@@ -3,6 +3,7 @@
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "stored pictures are files")]
 
 mod captions;
+mod chain;
 mod challenges;
 mod contact;
 mod detectors;

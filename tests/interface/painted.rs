@@ -1,7 +1,7 @@
 //! The words that are painted: whole, apart, and set like a text.
 
 use crate::stages::show;
-use crate::support::{Page, click, page_of, slide};
+use crate::support::{Page, click, finish, page_of, slide};
 use centrode::app::stages::stage::Stage;
 use centrode::app::words::help::PARAGRAPHS;
 use egui::epaint::TextShape;
@@ -55,6 +55,25 @@ fn the_legend_of_the_plane_is_whole_on_a_small_laptop() {
         for (k, row) in rows.iter().enumerate() {
             assert!(rows[..k].iter().all(|other| !other.intersects(*row)), "{row} covers another of {rows:?}");
         }
+    }
+}
+
+#[test]
+fn the_readout_ends_above_the_edge_of_its_card() {
+    let mut page = page_of(SMALL);
+    for preset in ["bench", "miscalibrated", "touch-2"] {
+        let link = format!("preset={preset}&detection.detectors=fcd,jfd,cusum&t=7");
+        page.state_mut().as_mut().expect("built").go(&link);
+        page.run_steps(2);
+        finish(&mut page);
+        let said = |start: &str| {
+            let found = painted(&page).into_iter().filter(|(text, _)| text.galley.text().starts_with(start));
+            found.map(|(text, clip)| (text.galley.rect.translate(text.pos.to_vec2()), clip)).collect::<Vec<_>>()
+        };
+        assert_eq!(said("CUSUM tells").len(), 1, "{preset}: what CUSUM found is said besides");
+        let rows = said("Joint force alarm");
+        let [(last, card)] = rows[..] else { panic!("{preset}: {rows:?}") };
+        assert!(last.bottom() < card.bottom() - 6.0, "{preset}: {last} at the edge of {card}");
     }
 }
 

@@ -2,6 +2,8 @@
 //!
 //! They are drawn by a software renderer (Mesa's lavapipe, which the test command installs), so that machines agree.
 
+mod chain;
+
 use crate::detectors::{LINK, go};
 use crate::stages::show;
 use crate::support::{DESK, PHONE, Page, build, choose_theme, click, finish, paused, slide};
@@ -10,7 +12,7 @@ use egui::Theme::{Dark, Light};
 use egui::{Vec2, vec2};
 use egui_kittest::kittest::Queryable;
 use egui_kittest::wgpu::{WgpuTestRenderer, create_render_state, default_wgpu_setup};
-use egui_kittest::{Harness, SnapshotOptions};
+use egui_kittest::{Harness, SnapshotOptions, try_image_snapshot_options};
 use egui_wgpu::RendererOptions;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
@@ -39,6 +41,15 @@ fn compare(page: &mut Page, name: &str) {
     finish(page);
     let options = SnapshotOptions::new().threshold(TOLERANCE).max_failed_pixels(STRAYS);
     page.try_snapshot_options(name, &options).unwrap_or_else(|differs| panic!("{differs}"));
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        pack(&options.output_path.join(format!("{name}.png")));
+    }
+}
+
+/// Compares a picture that is none of the page with the stored one.
+fn compare_image(picture: &image::RgbaImage, name: &str) {
+    let options = SnapshotOptions::new().threshold(TOLERANCE).max_failed_pixels(STRAYS);
+    try_image_snapshot_options(picture, name, &options).unwrap_or_else(|differs| panic!("{differs}"));
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
         pack(&options.output_path.join(format!("{name}.png")));
     }
@@ -229,4 +240,18 @@ fn a_challenge_and_the_gallery() {
     page.run_steps(3);
     click(&mut page, "Preset");
     compare(&mut page, "gallery-desk-dark");
+}
+
+#[test]
+fn segments_in_series() {
+    for (name, theme, size, time) in [
+        ("chain-desk-dark", Dark, DESK, 7.6),
+        ("chain-desk-light", Light, DESK, 7.6),
+        ("chain-phone-dark", Dark, PHONE, 7.6),
+    ] {
+        let mut page = page(size, theme, time);
+        page.state_mut().as_mut().expect("built").go(&format!("chain=two-contacts&t={time}"));
+        finish(&mut page);
+        compare(&mut page, name);
+    }
 }

@@ -1,10 +1,12 @@
 //! Symbols are named where they stand, and lead to their place in the theory.
 
-use crate::support::{DESK, Page, app, page_of, texts};
+use crate::support::{DESK, PHONE, Page, app, finish, page_of, texts};
 use centrode::app::link::Effect;
-use centrode_core::symbols::{SYMBOLS, find};
+use centrode::app::stages::stage::Stage;
+use centrode_core::symbols::{SYMBOLS, find, spans};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui::text::CCursor;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, Rect, Shape, TouchDeviceId, TouchId, TouchPhase};
 use egui_kittest::Node;
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -140,6 +142,61 @@ fn the_symbols_of_legends_axes_and_thresholds_are_found_by_the_pointer() {
     assert_eq!(point(&mut page, legend.center()).len(), 1);
 }
 
+/// Puts a finger down at a place and lifts it, as a browser tells of it: what a mouse would do, and the touch besides.
+fn tap(page: &mut Page, pos: Pos2) {
+    for (phase, pressed) in [(TouchPhase::Start, true), (TouchPhase::End, false)] {
+        let modifiers = Modifiers::NONE;
+        page.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers });
+        page.event(Event::Touch { device_id: TouchDeviceId(0), id: TouchId(0), phase, pos, force: None });
+        if !pressed {
+            page.event(Event::PointerGone);
+        }
+        page.step();
+    }
+    page.run_steps(3);
+}
+
+#[test]
+fn a_tap_names_a_symbol_and_leads_on_from_its_note() {
+    const ON: &str = "Its place in the theory";
+    for size in [PHONE, DESK] {
+        let mut page = page_of(size);
+        if size == PHONE {
+            page.get_by_label("Plots").click();
+            page.run_steps(3);
+        }
+        let symbol = find("deviation").expect("a symbol");
+        let at = link(&page, "deviation").rect().center();
+        let line = symbol.line().replace('_', "");
+        opened(&mut page);
+        tap(&mut page, at);
+        assert_eq!(named(&page), std::slice::from_ref(&line), "at {size}");
+        assert!(opened(&mut page).is_empty(), "a finger is told what it is first");
+        let on = page.get_by_role_and_label(Role::Button, ON).rect();
+        assert!(on.width().min(on.height()) >= 43.9, "{on}");
+        // It stays, to be read.
+        page.run_steps(40);
+        assert_eq!(named(&page), std::slice::from_ref(&line));
+        tap(&mut page, on.center());
+        assert_eq!(opened(&mut page), ["theory.html#sym-deviation"]);
+        assert!(named(&page).is_empty() && page.query_by_label(ON).is_none());
+        // The symbol itself leads there as well, once it was named.
+        tap(&mut page, at);
+        tap(&mut page, at);
+        assert_eq!(opened(&mut page), ["theory.html#sym-deviation"]);
+        assert!(named(&page).is_empty());
+        // A tap on something else puts the note away, a symbol or not.
+        tap(&mut page, at);
+        let other = link(&page, "theta").rect().center();
+        tap(&mut page, other);
+        assert_eq!(named(&page), [find("theta").expect("a symbol").line().replace('_', "")]);
+        let help = page.get_by_label("Help").rect().center();
+        tap(&mut page, help);
+        assert!(page.query_by_label(ON).is_none());
+        assert!(opened(&mut page).is_empty());
+    }
+}
+
 /// Presses and lets go at a place.
 fn press(page: &mut Page, pos: Pos2) {
     page.event(Event::PointerMoved(pos));
@@ -148,6 +205,61 @@ fn press(page: &mut Page, pos: Pos2) {
         page.event(Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers });
     }
     page.run_steps(2);
+}
+
+/// Every symbol that is painted in sight: which it is, its middle, and the text it is in; not those that stand on a control.
+fn written(page: &Page) -> Vec<(&'static str, Pos2, String)> {
+    fn all(shape: &Shape, clip: Rect, found: &mut Vec<(&'static str, Pos2, String)>) {
+        match shape {
+            Shape::Vec(shapes) => shapes.iter().for_each(|shape| all(shape, clip, found)),
+            Shape::Text(text) if text.angle == 0.0 => {
+                for (at, symbol) in spans(text.galley.text()) {
+                    let end = |index: usize, prefer_next_row| {
+                        let cursor = CCursor { index: index.into(), prefer_next_row };
+                        text.galley.pos_from_cursor(cursor).translate(text.pos.to_vec2())
+                    };
+                    let (from, to) = (end(at.start, true), end(at.end, false));
+                    let middle = from.union(to).center();
+                    if from.top() == to.top() && clip.contains(middle) {
+                        found.push((symbol.id, middle, text.galley.text().to_owned()));
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    page.output().shapes.iter().for_each(|clipped| all(&clipped.shape, clipped.clip_rect, &mut found));
+    let controls: Vec<Rect> =
+        [Role::Button, Role::RadioButton, Role::CheckBox, Role::Switch, Role::TextInput, Role::Slider]
+            .into_iter()
+            .flat_map(|role| page.query_all_by_role(role).map(|node| node.rect()).collect::<Vec<_>>())
+            .filter(|rect| rect.height() < 60.0)
+            .collect();
+    found.retain(|(_, at, _)| !controls.iter().any(|control| control.contains(*at)));
+    found
+}
+
+/// A note names a symbol wherever it stands, and a click there leads on: it does nothing else.
+#[test]
+fn a_click_on_any_symbol_in_sight_opens_its_place_and_does_nothing_else() {
+    for stage in Stage::ALL {
+        let mut page = page_of(DESK);
+        let link = format!("preset=bench&view={}&t=7&repeats=4&compare=fcd,jfd", stage.key());
+        page.state_mut().as_mut().expect("built").go(&link);
+        page.run_steps(3);
+        // What is found may move what is said.
+        finish(&mut page);
+        let symbols = written(&page);
+        assert!(symbols.len() >= 3, "{stage:?}: {symbols:?}");
+        opened(&mut page);
+        for (id, at, text) in symbols {
+            let before = app(&page).state().clone();
+            press(&mut page, at);
+            assert_eq!(opened(&mut page), [format!("theory.html#sym-{id}")], "{stage:?}: {id} at {at} in {text:?}");
+            assert_eq!(app(&page).state(), &before, "{stage:?}: {id} at {at} in {text:?}");
+        }
+    }
 }
 
 #[test]

@@ -1,14 +1,21 @@
 //! The page in a hand: the sheet, targets for fingers, and whom a finger belongs to.
 
 use crate::detectors::{LINK, go};
+use crate::lesson::learn;
+use crate::logs::{bytes, drop_log};
 use crate::stages::show;
-use crate::support::{LOW, PHONE, Page, app, click, finish, page_of, slide, slider};
+use crate::support::{LOW, PHONE, Page, app, build, click, finish, page_of, paused, slide, slider};
 use centrode::app::layout::sheet::Stop;
+use centrode::app::lesson::challenge::CHALLENGES;
 use centrode::app::stages::stage::Stage;
 use centrode::app::state::Tab;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Pos2, TouchDeviceId, TouchId, TouchPhase, Vec2, vec2};
+use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT, Queryable};
+use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
+use egui_wgpu::RendererOptions;
+use std::collections::BTreeSet;
 
 const SMALL: Vec2 = vec2(360.0, 640.0);
 /// What a finger hits, points; what rounding takes is not missed.
@@ -145,6 +152,102 @@ fn a_finger_hits_everything_in_every_view() {
         page.state_mut().as_mut().expect("built").go("preset=bench&contact.disk=9");
         page.run_steps(3);
         hits(&page, &at("notice"), &mut small);
+    }
+    assert!(small.is_empty(), "{}: {small:#?}", small.len());
+}
+
+/// Every challenge, with its hint and its answer.
+#[test]
+fn a_finger_hits_everything_of_the_challenges() {
+    let mut small = Vec::new();
+    for size in [SMALL, PHONE, LOW] {
+        let mut page = page_of(size);
+        let at = |what: &str| format!("{}×{} {what}", size.x, size.y);
+        learn(&mut page, "Challenges");
+        hits(&page, &at("challenges"), &mut small);
+        for of in &CHALLENGES {
+            for (k, button) in [of.title, "Hint", "Worked answer"].into_iter().enumerate() {
+                // It may have to be scrolled to.
+                page.get_by_role_and_label(Role::Button, button).click_accesskit();
+                page.run_steps(3);
+                hits(&page, &at(&format!("{}, {k} unfolded", of.key)), &mut small);
+            }
+            assert!(page.query_by_role_and_label(Role::Button, "Show me").is_some());
+            click(&mut page, "All");
+        }
+    }
+    assert!(small.is_empty(), "{}: {small:#?}", small.len());
+}
+
+/// The menus by which cards are saved: of the 3D view, and of all that has one on any stage or tab.
+#[test]
+fn a_finger_hits_everything_in_the_menus_that_save() {
+    let mut small = Vec::new();
+    for size in [SMALL, PHONE, LOW] {
+        let gpu = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+        let mut page = paused(build(Harness::builder().with_size(size), Some(gpu)));
+        let mut seen = BTreeSet::new();
+        let mut menus = |page: &mut Page| {
+            let saves = |label: String| label.starts_with("Save ").then_some(label);
+            let buttons = page.query_all_by_role(Role::Button);
+            let found: Vec<_> = buttons.filter_map(|node| saves(node.accesskit_node().label()?)).collect();
+            for name in found.into_iter().filter(|name| seen.insert(name.clone())) {
+                page.get_by_role_and_label(Role::Button, &name).click_accesskit();
+                page.run_steps(3);
+                assert!(page.query_all_by_role(Role::MenuItem).count() > 0, "{name} opens no menu");
+                hits(page, &format!("{}×{} {name}", size.x, size.y), &mut small);
+                page.key_press(Key::Escape);
+                page.run_steps(3);
+            }
+        };
+        for tab in ["Plots", "Bending plane", "Result"] {
+            click(&mut page, tab);
+            menus(&mut page);
+        }
+        for stage in Stage::ALL {
+            page.state_mut().as_mut().expect("built").go(&format!("preset=bench&view={}", stage.key()));
+            page.run_steps(4);
+            menus(&mut page);
+        }
+        for name in ["Save 3D view", "Save plots", "Save figure 4", "Save map", "Save Table II"] {
+            assert!(seen.contains(name), "{name} is not among {seen:?}");
+        }
+    }
+    assert!(small.is_empty(), "{}: {small:#?}", small.len());
+}
+
+/// The banner of a log, the report, and the form of each kind of file.
+#[test]
+fn a_finger_hits_everything_of_a_log() {
+    let mut small = Vec::new();
+    for size in [SMALL, PHONE, LOW] {
+        let mut page = page_of(size);
+        page.state_mut().as_mut().expect("built").go("preset=bench");
+        page.run_steps(2);
+        for name in ["clean.csv", "ros.mcap", "ndi.csv"] {
+            drop_log(&mut page, name, bytes(name));
+            let at = |what: &str| format!("{}×{} {name}, {what}", size.x, size.y);
+            if app(&page).log_form().is_none() {
+                hits(&page, &at("banner"), &mut small);
+                click(&mut page, "Report");
+                page.run_steps(3);
+                hits(&page, &at("report"), &mut small);
+                click(&mut page, "Go on");
+                click(&mut page, "Columns");
+                page.run_steps(4);
+            }
+            hits(&page, &at("form"), &mut small);
+            page.get_by_role_and_label(Role::ComboBox, "Format").click_accesskit();
+            page.run_steps(6);
+            assert!(page.query_by_label("guess").is_some(), "{}", at("no formats"));
+            hits(&page, &at("formats"), &mut small);
+            page.key_press(Key::Escape);
+            page.run_steps(3);
+            if app(&page).log_form().is_some() {
+                click(&mut page, "Cancel");
+                page.run_steps(3);
+            }
+        }
     }
     assert!(small.is_empty(), "{}: {small:#?}", small.len());
 }

@@ -245,8 +245,8 @@ fn what_cannot_be_is_refused_in_one_line_with_the_key() {
 #[test]
 fn flags_of_one_segment_are_refused_and_other_subcommands_say_which_takes_it() {
     for (args, part) in [
-        (&["run", "--preset", "oblique", "--log", "x.csv"][..], "--log"),
-        (&["run", "--preset", "oblique", "--figure", "x.svg"][..], "--figure"),
+        (&["run", "--preset", "oblique", "--log", "x.tum"][..], "written as .csv"),
+        (&["run", "--preset", "oblique", "--figure", "x.bmp"][..], "--figure"),
         (&["run", "--preset", "oblique", "--detector", "jfd"][..], "those that do"),
         (&["run", "--preset", "oblique", "--set", "end=1e6"][..], "end"),
         (&["study", "--preset", "oblique"][..], "centrode run"),

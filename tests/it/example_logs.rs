@@ -108,6 +108,30 @@ fn commands() -> String {
     text
 }
 
+/// Three trackers on the preset `two-contacts`.
+fn chain() -> String {
+    let rig = &crate::chain_logs::RIG;
+    let names = ["x", "y", "z", "azimuth", "elevation", "roll", "theta_l", "delta"];
+    let mut text = String::from("time [s]");
+    for disk in 1..=3 {
+        for (place, name) in names.iter().enumerate() {
+            write!(text, ",{name}_{disk} [{}]", if place < 3 { "mm" } else { "deg" }).expect("a text");
+        }
+    }
+    text.push('\n');
+    for at in (4000..=7600).step_by(10) {
+        write!(text, "{:.2}", rig.times[at]).expect("a text");
+        for (readings, told) in rig.readings.iter().zip(&rig.told) {
+            let (reading, told) = (readings.as_ref().expect("a tracker")[at], told[at].configuration);
+            reading.position.iter().for_each(|part| write!(text, ",{:.4}", part * 1e3).expect("a text"));
+            let angles = reading.angles.into_iter().chain([told.theta_l(), told.delta()]);
+            angles.for_each(|part| write!(text, ",{:.4}", part.to_degrees()).expect("a text"));
+        }
+        text.push('\n');
+    }
+    text
+}
+
 fn container() -> Vec<u8> {
     let plan = plan();
     let mut out = Vec::new();
@@ -131,6 +155,7 @@ fn the_example_logs_are_made_here() {
         ("euroc.csv", euroc().into_bytes()),
         ("ndi.csv", ndi.into_bytes()),
         ("ros.mcap", container()),
+        ("chain.csv", chain().into_bytes()),
     ] {
         let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/logs").join(name);
         if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {

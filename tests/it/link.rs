@@ -1,9 +1,10 @@
 //! Links: what is written is read back, what is broken is told, and whatever is read can be run.
 
+use centrode_core::scenario::chain::{ChainDraft, Change};
 use centrode_core::scenario::keys::{KEYS, Usual};
-use centrode_core::scenario::link::page::{CHALLENGES, MAX_REPEATS, RULES, THEMES, TOUR_STEPS, VIEWS};
-use centrode_core::scenario::link::{Broken, Link, LinkError, MAX_LINK, PAGE_KEYS, Page, Why};
-use centrode_core::scenario::preset::{PRESETS, find};
+use centrode_core::scenario::link::page::{CHAIN, CHALLENGES, MAX_REPEATS, RULES, THEMES, TOUR_STEPS, VIEWS};
+use centrode_core::scenario::link::{Broken, ChainLink, Link, LinkError, MAX_LINK, PAGE_KEYS, Page, Why};
+use centrode_core::scenario::preset::{PRESETS, find, find_chain};
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{Detectors, Method, Plan, Scenario};
 use centrode_core::study::tuning::{self, watch::Rule};
@@ -238,6 +239,37 @@ fn scenario() -> impl Strategy<Value = Scenario> {
     })
 }
 
+/// An experiment with several segments in which something is set, a contact added and one taken away.
+fn chained(length: f64) -> ChainLink {
+    let draft = ChainDraft::of(find_chain("two-contacts").expect("a preset"));
+    let contact = "segment = 1\nat = 0.02\nkind = \"plane\"\ntime = 4".parse().expect("a table");
+    let changes = [
+        Change::Set("segment[3].length".into(), toml::Value::Float(0.03 + 0.001 * length)),
+        Change::Remove("contact[2]".into()),
+        Change::Add("contact", contact),
+    ];
+    ChainLink::new("two-contacts", draft.with(changes).expect("possible")).expect("a preset")
+}
+
+#[test]
+fn several_segments_are_held_and_what_is_impossible_of_them_is_told() {
+    let chain = chained(1.0);
+    let link = Link::new(&PRESETS[0], &Scenario::default(), Page { chain: Some(chain.clone()), ..Page::of(CHAIN) });
+    let text = link.expect("possible").fragment().expect("short");
+    assert!(text.contains("&chain=two-contacts&") && text.contains("&chain.segment.3.length=0.031"), "{text}");
+    assert_eq!(whole(&text).page.chain, Some(chain));
+    // A link that names several segments wants to show them.
+    assert_eq!(whole("chain=buckling").page.view, CHAIN);
+    assert_eq!(whole("chain=buckling&view=robot").page.view, "robot");
+    let (link, broken) =
+        Link::read("chain=two-contacts&chain.segment.2.length=-1&chain.segment.9.length=1&chain.segment.1.length=0.04");
+    let told: Vec<&str> = broken.iter().map(|broken| broken.key.as_str()).collect();
+    assert_eq!(told.len(), 2, "{broken:?}");
+    assert!(broken[0].to_string().contains("segment[2].length"), "{broken:?}");
+    let scenario = link.page.chain.expect("a chain").draft.scenario().expect("possible");
+    assert_eq!(scenario.segments[0].alone.scenario().robot.length, 0.04);
+}
+
 fn page() -> impl Strategy<Value = Page> {
     let (views, rules) = (prop::sample::select(VIEWS), prop::sample::select(RULES));
     let numbers = (prop::option::of(0.0..0.3_f64), 0.1..4.0_f64, 0.001..0.999_f64, 1..MAX_REPEATS);
@@ -248,7 +280,8 @@ fn page() -> impl Strategy<Value = Page> {
     all.prop_map(|(view, rule, numbers, looping, some, (tour, challenge), theme)| {
         let (time, speed, false_alarms, repeats) = numbers;
         let compare = Detectors::of(&some);
-        Page { view, rule, time, speed, looping, false_alarms, repeats, compare, tour, challenge, theme }
+        let chain = (view == CHAIN).then(|| chained(speed));
+        Page { view, rule, time, speed, looping, false_alarms, repeats, compare, tour, challenge, theme, chain }
     })
 }
 
@@ -257,8 +290,10 @@ proptest! {
     fn what_is_written_is_read_back(scenario in scenario(), page in page(), preset in 0..PRESETS.len()) {
         let link = Link::new(&PRESETS[preset], &scenario, page).expect("possible");
         let text = link.fragment().expect("short");
-        // RFC 3986, but for what would need to be escaped.
-        prop_assert!(text.chars().all(|c| c.is_ascii_alphanumeric() || "-._~!$&'()*+,;=:@/?".contains(c)), "{}", text);
+        // RFC 3986; only lists of contacts have what is escaped.
+        let escaped = if link.page.chain.is_some() { "%" } else { "" };
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-._~!$&'()*+,;=:@/?".contains(c) || escaped.contains(c);
+        prop_assert!(text.chars().all(plain), "{}", text);
         let (read, broken) = Link::read(&text);
         prop_assert_eq!(broken, vec![], "{}", text);
         prop_assert_eq!(&read, &link, "{}", text);

@@ -4,6 +4,7 @@ use crate::cli::{centrode, json, scratch};
 use centrode_core::run::simulate;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::link::Link;
+use centrode_core::scenario::link::page::{CHALLENGES, THEMES, TOUR_STEPS, VIEWS};
 use centrode_core::scenario::preset::PRESETS;
 
 fn line(args: &[&str]) -> String {
@@ -62,6 +63,52 @@ fn a_file_has_a_link_and_a_link_can_be_changed() {
 }
 
 #[test]
+fn a_link_opens_a_lesson_and_a_theme() {
+    let link = |args: &[&str]| line(&[&["link", "--preset", "bench"][..], args, &[PAGE]].concat());
+    let fragment = |link: &str| link.split_once('#').expect("a fragment").1.to_owned();
+    let toured = link(&["--tour", "4", "--theme", "projector"]);
+    assert_eq!(fragment(&toured), "preset=bench&tour=4&theme=projector");
+    let (read, broken) = Link::read(&toured);
+    assert_eq!((read.page.tour, read.page.theme, broken.len()), (Some(4), Some("projector"), 0));
+    let last = TOUR_STEPS.to_string();
+    assert_eq!(fragment(&link(&["--tour", &last])), format!("preset=bench&tour={last}"));
+    for challenge in CHALLENGES {
+        assert_eq!(fragment(&link(&["--challenge", challenge])), format!("preset=bench&challenge={challenge}"));
+    }
+    for theme in THEMES {
+        assert_eq!(fragment(&link(&["--theme", theme])), format!("preset=bench&theme={theme}"));
+    }
+    // A lesson takes the place of that which a link had.
+    let again = line(&["link", "--link", &toured, "--challenge", "clamp", PAGE]);
+    assert_eq!(fragment(&again), "preset=bench&challenge=clamp&theme=projector");
+    assert_eq!(
+        fragment(&line(&["link", "--link", &again, "--tour", "2", PAGE])),
+        "preset=bench&tour=2&theme=projector"
+    );
+}
+
+#[test]
+fn several_segments_have_links_that_run() {
+    let sets = ["--set", "segment[3].motion.theta_end=0.9"];
+    let made = line(&[&["link", "--preset", "two-contacts"][..], &sets, &[PAGE]].concat());
+    assert!(made.ends_with("view=chain&chain=two-contacts&chain.segment.3.motion.theta_end=0.9"), "{made}");
+    let ours = json(&["run", "--json", "--link", &made]);
+    assert_eq!(ours, json(&[&["run", "--json", "--preset", "two-contacts"][..], &sets].concat()));
+    let refused = centrode(&["link", "--preset", "two-contacts", "--set", "segment[9].length=1", PAGE]);
+    assert!(String::from_utf8_lossy(&refused.stderr).contains("segment[9].length"), "{refused:?}");
+}
+
+/// The help names every word that a flag takes.
+#[test]
+fn the_help_names_views_challenges_and_themes() {
+    let help = String::from_utf8(centrode(&["link", "--help"]).stdout).expect("UTF-8");
+    let words: Vec<&str> = help.split(|c: char| !(c.is_alphanumeric() || c == '-')).collect();
+    for word in VIEWS.iter().chain(CHALLENGES).chain(THEMES) {
+        assert!(words.contains(word), "{word} is not in\n{help}");
+    }
+}
+
+#[test]
 fn studies_maps_tables_and_figures_take_links() {
     let link = "#preset=bench&seed=3&contact.disk=3&view=tuning&rule=or&false_alarms=0.2&repeats=4";
     let ours = json(&["study", "--json", "--link", link]);
@@ -104,6 +151,12 @@ fn a_broken_link_is_refused_and_its_keys_are_named() {
         (&["link", "--view", "plots", PAGE], &["--view", "plots", "robot"]),
         (&["link", "--t", "10.5", PAGE], &["t = 10.5", "motion.end = 10 s"]),
         (&["link", "--t", "-1", PAGE], &["--t", "-1", "0 s"]),
+        (&["link", "--tour", "14", PAGE], &["--tour", "14", "1 to 13"]),
+        (&["link", "--tour", "-1", PAGE], &["--tour", "-1", "1 to 13"]),
+        (&["link", "--tour", "next", PAGE], &["--tour", "next", "whole number"]),
+        (&["link", "--challenge", "disk-2", PAGE], &["--challenge", "disk-2", "disk-1", "best"]),
+        (&["link", "--tour", "4", "--challenge", "clamp", PAGE], &["--tour", "--challenge"]),
+        (&["link", "--theme", "sepia", PAGE], &["--theme", "sepia", "dark", "projector"]),
         (&["link", "--scenario", "no-such.toml", PAGE], &["no-such.toml"]),
         (&["link", "--scenario", "a.toml", "--preset", "bench", PAGE], &["--preset"]),
     ] {

@@ -293,7 +293,7 @@ fn chunks_are_read_however_they_are_compressed() {
 }
 
 /// A file of JSON messages on given topics, with a channel of its own for each message where `apart`.
-fn json_mcap(messages: &[(&str, &str, String)]) -> Vec<u8> {
+pub fn json_mcap(messages: &[(&str, &str, String)]) -> Vec<u8> {
     channelled(messages, false)
 }
 

@@ -12,6 +12,10 @@ mod calibration_filter;
 mod chain;
 #[cfg(feature = "cli")]
 mod chain_command;
+#[cfg(feature = "cli")]
+mod chain_log_refusals;
+#[cfg(feature = "cli")]
+mod chain_logs;
 mod chain_properties;
 mod chain_run;
 #[cfg(feature = "cli")]

@@ -3,8 +3,10 @@
 use crate::log_formats::{container, ndi, plan, readings};
 use centrode_core::record::Recorder;
 use centrode_core::record::log::assemble::MAX_ENTRIES;
+use centrode_core::record::log::chain::{self, ChainLog, ChainOptions, Expected};
 use centrode_core::record::log::{Commands, Format, Log, Options, Rate, Reader, Setup, assemble, write};
 use centrode_core::scenario::Scenario;
+use centrode_core::scenario::preset::find_chain;
 use proptest::prelude::*;
 use std::sync::LazyLock;
 
@@ -127,6 +129,48 @@ fn read(format: Format, bytes: Vec<u8>) -> Option<usize> {
     Some(numbers)
 }
 
+/// A sound log of three trackers with a set of columns for each, and one with a row for each.
+static SEVERAL: LazyLock<[Vec<u8>; 2]> = LazyLock::new(|| {
+    let rig = &crate::chain_logs::RIG;
+    let mut wide = write::chain_csv_header(rig);
+    (5900..5920).for_each(|at| write::chain_csv_row(&mut wide, rig, at));
+    let mut long = "time,disk,x,y,z,qw,qx,qy,qz,bend,delta\n".to_owned();
+    for row in 0..60 {
+        long += &format!("{},{},0.0{row},0,0.1,1,0,0,0,0.{row},0.3\n", f64::from(row / 3) * 0.01, row % 3 + 1);
+    }
+    [wide.into_bytes(), long.into_bytes()]
+});
+
+/// Reads a log of several trackers, and assembles it when it can be read; whether that can be done.
+fn read_several(bytes: Vec<u8>) -> bool {
+    let scenario = find_chain("two-contacts").and_then(|preset| preset.chain(&[]).ok()).expect("a preset");
+    let scenario = scenario.at_rate(100.0).expect("allowed");
+    let options =
+        ChainOptions { shared: Options { format: Some(Format::Csv), ..Options::default() }, ..ChainOptions::default() };
+    let mut log = ChainLog::new(scenario.segments.len());
+    let taken = chain::read("x", bytes, &Expected::of(&scenario), &options).and_then(|read| log.take(read, ""));
+    if let Err(error) = taken {
+        assert!(!error.to_string().contains('\n'), "{error}");
+        return false;
+    }
+    match chain::assemble(log, &scenario, &Setup::default()) {
+        Ok(assembled) => {
+            let times = &assembled.recording.times;
+            assert!(times.len() <= MAX_ENTRIES && times.windows(2).all(|pair| pair[0] < pair[1]));
+            true
+        }
+        Err(error) => {
+            assert!(!error.to_string().contains('\n'), "{error}");
+            false
+        }
+    }
+}
+
+#[test]
+fn sound_logs_of_several_trackers_are_read() {
+    assert!(SEVERAL.iter().all(|bytes| read_several(bytes.clone())));
+}
+
 #[test]
 fn sound_files_are_read() {
     for (format, bytes) in SOUND.iter() {
@@ -144,6 +188,11 @@ proptest! {
             // The shortest row is two bytes for each cell, and a cell is a number of eight bytes.
             prop_assert!(numbers <= 8 * size, "{numbers} numbers from {size} bytes");
         }
+    }
+
+    #[test]
+    fn a_mangled_log_of_several_trackers_is_read_or_refused(file in 0..2usize, spoils in proptest::collection::vec(spoil(), 1..6)) {
+        read_several(spoilt(&SEVERAL[file], &spoils));
     }
 
     #[test]

@@ -1,4 +1,8 @@
-//! The paper's equations, as they are right, and what computes each of them.
+//! The paper's equations, as they are right, and what computes each of them; and those of segments in series, which are not the paper's.
+
+mod chain;
+
+pub use chain::{Law, laws};
 
 use crate::code::{function, item};
 

@@ -1,5 +1,7 @@
 //! The numbers that the text quotes: each is computed when the page is built.
 
+mod chain;
+
 use anyhow::{Context, Result, bail};
 use centrode_core::chart::notation::number;
 use centrode_core::detect::Method;
@@ -29,6 +31,13 @@ impl Facts {
     fn put(&mut self, name: &'static str, value: f64, decimals: usize, unit: &str) {
         let text = number(value, decimals);
         self.0.insert(name, if unit.is_empty() { text } else { format!("{text}\u{a0}{unit}") });
+    }
+}
+
+impl Facts {
+    /// An angle (rad).
+    fn degrees(&mut self, name: &'static str, value: f64, decimals: usize) {
+        self.0.insert(name, format!("{}°", number(value.to_degrees(), decimals)));
     }
 }
 
@@ -74,6 +83,7 @@ pub fn facts() -> Result<Facts> {
     facts.put("clamp-1", 1e3 * largest(&quiet("disk-1", &[])?), 2, "mm");
     facts.put("free", 1e3 * largest(&quiet("bench", &["contact.disk=0"])?), 2, "mm");
     best(&mut facts)?;
+    chain::facts(&mut facts)?;
     Ok(facts)
 }
 

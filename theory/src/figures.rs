@@ -1,8 +1,9 @@
 //! The figures: which chart each of them is, and how it is drawn into the page.
 //!
 //! Reading order: `paper` (figures that the page has as well), `halves` (why the deviation is near s_c/2), `places` (what the filter
-//! does to the place, and what no estimate can beat), `draw` (a chart as SVG whose colours follow the page's).
+//! does to the place, and what no estimate can beat), `chains` (segments in series), `draw` (a chart as SVG whose colours follow the page's).
 
+pub mod chains;
 mod draw;
 mod halves;
 mod paper;
@@ -26,8 +27,19 @@ pub struct Figure {
 
 /// Names of all figures.
 #[cfg(test)]
-pub const NAMES: [&str; 8] =
-    ["bound", "loci", "detections", "map", "centroids", "half", "place-threshold", "place-bound"];
+pub const NAMES: [&str; 11] = [
+    "bound",
+    "loci",
+    "detections",
+    "map",
+    "centroids",
+    "half",
+    "place-threshold",
+    "place-bound",
+    "chain-blame",
+    "chain-place",
+    "chain-margin",
+];
 
 /// Sizes of a figure with one panel.
 const SINGLE: [[f64; 2]; 2] = [[720.0, 380.0], [350.0, 290.0]];
@@ -45,6 +57,9 @@ pub fn figure(name: &str) -> Result<Figure> {
         "half" => (halves::half()?, ("disk-1", "a contact that stays below ξ₂"), SINGLE),
         "place-threshold" => (places::against_threshold()?, ("disk-3", "disk 3 as it is detected"), SINGLE),
         "place-bound" => (places::bound()?, ("miscalibrated", "a robot that is not calibrated"), SINGLE),
+        "chain-blame" => (chains::blame()?, ("three-segments", "three segments in Centrode"), SINGLE),
+        "chain-place" => (chains::places()?, ("two-contacts", "both contacts in Centrode"), SINGLE),
+        "chain-margin" => (chains::margins()?, ("buckling", "a chain that buckles in Centrode"), SINGLE),
         _ => bail!("there is no figure called {name:?}"),
     };
     Ok(Figure { chart, state, sizes })

@@ -1,9 +1,9 @@
 //! The page: the chapters' texts with what is computed put in their places.
 //!
-//! A text is HTML. In it `$…$` is TeX in a line and `$$…$$` on a line of its own, and `{{…}}` is replaced: `eq 19`, `fig half | caption`,
-//! `open NAME | words` (a link to a state of the page), `fact NAME`, `symbols`, `misprints`.
+//! A text is HTML. In it `$…$` is TeX in a line and `$$…$$` on a line of its own, and `{{…}}` is replaced: `eq 19`, `law NAME` (an equation that is
+//! not the paper's), `fig half | caption`, `open NAME | words` (a link to a state of the page), `fact NAME`, `symbols`, `misprints`.
 
-use crate::equations::{Equation, equations};
+use crate::equations::{Equation, Law, equations, laws};
 use crate::facts::Facts;
 use crate::figures::{Colours, figure};
 use crate::symbols::{self, breakable};
@@ -17,7 +17,7 @@ use std::fmt::Write;
 type Chapter = (&'static str, &'static str, &'static str);
 
 /// The chapters, in reading order.
-pub const CHAPTERS: [Chapter; 11] = [
+pub const CHAPTERS: [Chapter; 12] = [
     ("centrode", "What a fixed centrode is", include_str!("../text/centrode.html")),
     ("kinematics", "How the segment moves", include_str!("../text/kinematics.html")),
     ("statics", "What the joints feel", include_str!("../text/statics.html")),
@@ -27,6 +27,7 @@ pub const CHAPTERS: [Chapter; 11] = [
     ("touch", "Clamp and touch", include_str!("../text/touch.html")),
     ("filter", "Why the filter biases the place", include_str!("../text/filter.html")),
     ("bound", "What no detector can beat", include_str!("../text/bound.html")),
+    ("chain", "Segments in series", include_str!("../text/chain.html")),
     ("misprints", "Misprints, with their proof", include_str!("../text/misprints.html")),
     ("symbols", "Symbols", include_str!("../text/symbols.html")),
 ];
@@ -102,6 +103,7 @@ impl Filler<'_> {
         let (of, words) = of.split_once('|').map_or((of.trim(), ""), |(of, words)| (of.trim(), words.trim()));
         match what {
             "eq" => self.equation(of.parse()?),
+            "law" => law(of),
             "fig" => self.figure(of, words),
             "open" => open(of, words),
             "fact" => Ok(self.facts.get(of)?.to_owned()),
@@ -114,13 +116,12 @@ impl Filler<'_> {
     fn equation(&self, number: u8) -> Result<String> {
         let found = self.equations.iter().find(|equation| equation.number == number);
         let Equation { name, tex, code, .. } = found.with_context(|| format!("there is no equation {number}"))?;
-        let code: Vec<String> = code.iter().map(|code| format!("<code>{}</code>", breakable(code))).collect();
         Ok(format!(
             "<div class=\"equation\" id=\"eq-{number}\" role=\"group\" aria-label=\"Equation {number}: {name}\">\
              {}<a class=\"number\" href=\"#eq-{number}\" aria-label=\"Equation {number}\">({number})</a>\
              <p class=\"code\">{}</p></div>",
             math::block(tex)?,
-            code.join(" ")
+            coded(code)
         ))
     }
 
@@ -135,6 +136,23 @@ impl Filler<'_> {
             open(state, &format!("Open {shows}"))?
         ))
     }
+}
+
+/// An equation of ours: without a number, with the functions that compute it.
+fn law(id: &str) -> Result<String> {
+    let found = laws().into_iter().find(|law| law.id == id);
+    let Law { name, tex, code, .. } = found.with_context(|| format!("there is no equation called {id:?}"))?;
+    Ok(format!(
+        "<div class=\"equation\" id=\"law-{id}\" role=\"group\" aria-label=\"Equation: {name}\">{}<p class=\"code\">{}</p></div>",
+        math::block(tex)?,
+        coded(&code)
+    ))
+}
+
+/// Places in the code.
+fn coded(code: &[&str]) -> String {
+    let code: Vec<String> = code.iter().map(|code| format!("<code>{}</code>", breakable(code))).collect();
+    code.join(" ")
 }
 
 /// Where the `}}` is that belongs to a `{{` before a text.

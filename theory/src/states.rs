@@ -1,10 +1,10 @@
 //! The states of the page that the theory shows, each by its name in the text.
 
 use anyhow::{Context, Result};
-use centrode_core::scenario::link::{Link, Page};
+use centrode_core::scenario::link::{ChainLink, Link, Page, page};
 use centrode_core::scenario::preset;
 
-/// A state of the page: a preset, what differs from it, the view, and where the cursor stands (s).
+/// A state of the page: a preset, what differs from it, the view, and where the cursor stands (s); or a preset of several segments.
 #[derive(Debug, Clone, Copy)]
 pub struct State {
     /// Its name in the text.
@@ -13,14 +13,20 @@ pub struct State {
     sets: &'static [&'static str],
     view: &'static str,
     time: Option<f64>,
+    chain: Option<&'static str>,
 }
 
 const fn at(name: &'static str, preset: &'static str, sets: &'static [&'static str], time: f64) -> State {
-    State { name, preset, sets, view: "robot", time: Some(time) }
+    State { name, preset, sets, view: "robot", time: Some(time), chain: None }
 }
 
 const fn view(name: &'static str, preset: &'static str, view: &'static str) -> State {
-    State { name, preset, sets: &[], view, time: None }
+    State { name, preset, sets: &[], view, time: None, chain: None }
+}
+
+/// Several segments: a preset of the same name.
+const fn chain(name: &'static str, time: f64) -> State {
+    State { name, preset: "bench", sets: &[], view: page::CHAIN, time: Some(time), chain: Some(name) }
 }
 
 /// All of them.
@@ -42,6 +48,9 @@ pub const STATES: &[State] = &[
     at("load-at-rest", "load-at-rest", &[], 8.5),
     at("independent", "bench", &["load_cells.errors=independent", "load_cells.preload=20"], 5.0),
     at("miscalibrated", "miscalibrated", &[], 6.0),
+    chain("three-segments", 6.5),
+    chain("two-contacts", 7.4),
+    chain("buckling", 6.0),
 ];
 
 /// The state of a name.
@@ -59,7 +68,11 @@ impl State {
             draft.set(set).with_context(named)?;
         }
         let scenario = draft.finish().with_context(named)?;
-        let page = Page { time: self.time, ..Page::of(self.view) };
+        let chain = match self.chain {
+            Some(chain) => Some(ChainLink::of(chain).with_context(named)?),
+            None => None,
+        };
+        let page = Page { time: self.time, chain, ..Page::of(self.view) };
         Link::new(preset, &scenario, page).with_context(named)
     }
 

@@ -2,8 +2,10 @@
 
 use crate::metadata::{Edges, Metadata, Package, numbers};
 use crate::run::{cargo, output, run, target};
-use anyhow::{Result, bail};
+use anyhow::{Context as _, Result, bail};
+use std::path::PathBuf;
 use std::process::Command;
+use std::{env, fs};
 
 /// Those that others use.
 const USED: [&str; 2] = ["centrode-core", "centrode"];
@@ -17,9 +19,28 @@ pub fn check() -> Result<()> {
     run(cargo().args(["fetch", "--locked", "--quiet"]))?;
     let packages = USED.iter().flat_map(|name| ["--package", name]);
     let fast = FAST.iter().flat_map(|setting| ["--config", setting]);
-    run(cargo().args(["package", "--locked", "--offline", "--allow-dirty"]).args(packages).args(fast))?;
     let metadata = Metadata::read(&[])?;
+    forget(&metadata)?;
+    run(cargo().args(["package", "--locked", "--offline", "--allow-dirty"]).args(packages).args(fast))?;
     USED.iter().try_for_each(|name| oldest(&metadata, metadata.ours(name)?))
+}
+
+/// Removes what earlier runs unpacked. Cargo knows it by name and version alone, and would compile the package above with an old one below it.
+fn forget(metadata: &Metadata) -> Result<()> {
+    let own = || env::home_dir().map(|home| home.join(".cargo"));
+    let Some(home) = env::var_os("CARGO_HOME").map(PathBuf::from).or_else(own) else { return Ok(()) };
+    let Ok(registries) = fs::read_dir(home.join("registry").join("src")) else { return Ok(()) };
+    // One on this machine has no host in its name.
+    let local = registries.flatten().filter(|registry| registry.file_name().to_string_lossy().starts_with('-'));
+    for registry in local {
+        for name in USED {
+            let old = registry.path().join(format!("{name}-{}", metadata.ours(name)?.version));
+            if old.is_dir() {
+                fs::remove_dir_all(&old).with_context(|| format!("cannot remove {}", old.display()))?;
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Compiles a package with the oldest Rust that it states, or says why not and what was looked at instead.

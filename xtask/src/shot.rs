@@ -22,6 +22,9 @@ pub struct Options {
     /// Seconds of the page's own time to wait for before the picture
     #[arg(long, value_name = "SECONDS", default_value_t = 7.0)]
     at: f64,
+    /// What is shown, as in a link (tour=4, preset=bench&theme=projector); without any, the page as it opens, and where it fails
+    #[arg(value_name = "FRAGMENT")]
+    fragments: Vec<String>,
 }
 
 /// Builds the page, serves it, and has every picture taken.
@@ -37,6 +40,7 @@ pub fn command(options: &Options) -> Result<()> {
         .args(["run", "--quiet", "--example", "shot", "--"])
         .arg(std::path::absolute(&options.out)?)
         .arg(options.at.to_string())
+        .args(&options.fragments)
         .env("CENTRODE_PAGE", page)
         .env("CENTRODE_BROWSER", browser)
         .current_dir(root()))

@@ -6,6 +6,7 @@
 //! was held, and a [`LogError`] names line and column. `docs/LOGS.md` specifies the formats.
 
 pub mod assemble;
+pub mod chain;
 pub mod error;
 pub mod frame;
 pub mod gather;
@@ -109,6 +110,10 @@ pub struct Options {
     pub topics: Vec<String>,
     /// Whether a topic may be one of another file that is read with the same options.
     pub partly: bool,
+    /// What the columns of a CSV file are, where that is decided already: [`chain`] does so for each of several trackers.
+    pub columns: Option<Vec<Column>>,
+    /// The segment (from 0, and of how many) whose joints are read in an MCAP file that names the segments of joints.
+    pub segment: Option<(usize, usize)>,
 }
 
 /// What a log holds, before it is a recording.

@@ -1,5 +1,6 @@
 //! Segments in series (docs/CHAIN.md): one configuration of them, as `centrode model --chain` reads it, and whole experiments.
 
+mod draft;
 mod group;
 mod inputs;
 mod plan;
@@ -20,6 +21,7 @@ use thiserror::Error;
 use toml::de::DeTable;
 
 pub use crate::model::chain::path::Stands;
+pub use draft::{ChainDraft, Change};
 pub use inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Tracked};
 pub use plan::ChainPlan;
 

@@ -3,13 +3,15 @@
 //! It says what differs from a preset, by the keys of the table, and then what the page shows of it:
 //! `#preset=bench&contact.disk=3&detection.xi2=0.005&view=tuning&t=6.28`. Numbers are in SI, lists have commas, and a key
 //! that is not there has the preset's value or the page's default. Reading order: [`page`] (the page's own keys),
-//! `read` (leniently, but telling all that was wrong), `command` (the same as a command line).
+//! `read` (leniently, but telling all that was wrong), `command` (the same as a command line), `chain` (several segments).
 
+mod chain;
 mod command;
 pub mod page;
 mod percent;
 mod read;
 
+pub use chain::ChainLink;
 pub use page::{PAGE_KEYS, Page, PageKey};
 pub use read::{Broken, Why, no_key, read_text};
 
@@ -119,6 +121,9 @@ impl Link {
         let scenario = self.changes.iter().map(|(key, value)| (key.path, written(value)));
         for (key, value) in scenario.chain(self.page.changes().map(|(key, value)| (key.name, written(&value)))) {
             // Writing to a String cannot fail. No name or value holds a character that would need to be escaped.
+            let _ = write!(text, "&{key}={value}");
+        }
+        for (key, value) in self.page.chain.iter().flat_map(ChainLink::parts) {
             let _ = write!(text, "&{key}={value}");
         }
         checked(text)

@@ -21,7 +21,11 @@ macro_rules! presets {
 
 macro_rules! chains {
     ($($name:literal),* $(,)?) => {
-        &[$(Preset { name: $name, toml: include_str!(concat!("../../assets/presets/chain/", $name, ".toml")) }),*]
+        /// Those with several segments, or with a beam out of the bending plane, which [`ChainScenario`] reads.
+        pub const CHAINS: &[Preset] =
+            &[$(Preset { name: $name, toml: include_str!(concat!("../../assets/presets/chain/", $name, ".toml")) }),*];
+        /// Their names.
+        pub const CHAIN_NAMES: &[&str] = &[$($name),*];
     };
 }
 
@@ -51,8 +55,7 @@ pub const PRESETS: &[Preset] = presets![
     "play",
 ];
 
-/// Those with several segments, or with a beam out of the bending plane, which [`ChainScenario`] reads.
-pub const CHAINS: &[Preset] = chains!["three-segments", "two-contacts", "reopened", "buckling", "oblique", "tip-only"];
+chains!["three-segments", "two-contacts", "reopened", "buckling", "oblique", "tip-only"];
 
 /// The preset of a name with several segments.
 #[must_use]

@@ -1,12 +1,18 @@
 //! What a run of several segments comes to. Segments, disks and contacts count from 1, as in a file.
 
+pub mod course;
+pub mod figure;
+
 use crate::detect::chain::{
     Along, ChainContactFound, ChainEvent, ChainJudged, ChainMethod, ChainSettings, judge_chain,
 };
+use crate::model::chain::Unsettled;
 use crate::model::chain::path::What;
 use crate::record::chain::ChainRecording;
+use crate::record::log::chain::ChainAssembled;
 use crate::scenario::chain::Stands;
 use crate::scenario::{ChainPlan, Kind};
+use crate::study::about::ChainAbout;
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -30,6 +36,16 @@ impl ChainRun {
         Self { plan, recording, judged }
     }
 
+    /// What logs hold, judged. Its plan is the nominal experiment without contacts, which nobody knows.
+    ///
+    /// # Errors
+    /// Never for an experiment without contacts whose segments are straight when it begins; else, where it has no stable shape then.
+    pub fn recorded(assembled: &ChainAssembled) -> Result<Self, Unsettled> {
+        let plan = ChainPlan::new(&assembled.scenario)?;
+        let judged = judge_chain(&assembled.recording, &ChainSettings::of(plan.scenario()));
+        Ok(Self { plan, recording: assembled.recording.clone(), judged })
+    }
+
     /// What it comes to. Contacts are told by the alarms of a detector, and placed so long after them (s).
     #[must_use]
     pub fn report(&self, detector: Option<ChainMethod>, after: &[f64]) -> ChainReport {
@@ -43,6 +59,7 @@ impl ChainRun {
             detector: detector.map(ChainMethod::key),
             events: self.judged.events.iter().map(told).collect(),
             found: found.iter().map(found_told).collect(),
+            log: None,
         }
     }
 
@@ -88,6 +105,9 @@ pub struct ChainReport {
     pub events: Vec<EventTold>,
     /// The contacts that are told.
     pub found: Vec<FoundTold>,
+    /// How the log was read; of a simulated run there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub log: Option<ChainAbout>,
 }
 
 /// Something that the backbone meets.

@@ -5,7 +5,7 @@
 
 mod axis;
 mod between;
-mod frame;
+pub mod frame;
 mod marks;
 mod panels;
 mod threshold;
@@ -37,6 +37,8 @@ const LEAST: [f32; 3] = [128.0, 112.0, 84.0];
 const LEAST_ROW: f32 = 120.0;
 /// Space between plots.
 const GAP: f32 = 10.0;
+/// Of the second plot at least so much is seen, its title, or nothing, points.
+const PEEK: f32 = 30.0;
 
 /// What the plots remember between frames; nothing of it is an input of the experiment.
 #[derive(Default)]
@@ -78,10 +80,13 @@ type Key = (u64, Option<u64>, bool);
 
 /// A touch may scrub, or scroll the page.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-enum Touch {
+pub enum Touch {
+    /// It has not moved yet.
     #[default]
     Undecided,
+    /// It moves along the time.
     Scrubs,
+    /// It moves up or down.
     Scrolls,
 }
 
@@ -98,7 +103,7 @@ pub fn plots(ui: &mut Ui, (run, version): (&Run, u64), cursor: f64, state: &mut 
     let beside = wide(SIDE_BY_SIDE) && !(space.y.is_finite() && space.y > 0.9 * space.x);
     let stacked = least(count).iter().sum::<f32>() + (count - 1) as f32 * GAP;
     let beside = beside || state.framed && wide(FRAMED_SIDE_BY_SIDE) && space.y < stacked;
-    let least = if beside { LEAST_ROW } else { stacked };
+    let least = if beside { LEAST_ROW } else { whole(stacked, count, space.y) };
     let size = vec2(space.x.max(200.0), if space.y.is_finite() { space.y.max(least) } else { 1.2 * least });
     if space.y < least {
         let area = egui::ScrollArea::vertical().id_salt("plots").auto_shrink(false);
@@ -253,8 +258,19 @@ fn least(count: usize) -> Vec<f32> {
     (0..count).map(|k| LEAST[kind(k)]).collect()
 }
 
+/// How high plots are that are as high as this when stacked, where so much of them is seen: if that is hardly less than the first, or
+/// little more, it is the first that is seen, whole.
+fn whole(stacked: f32, count: usize, seen: f32) -> f32 {
+    let first = LEAST[if count == 1 { 2 } else { 0 }];
+    if seen >= stacked || !(0.95 * first..first + PEEK).contains(&seen) {
+        return stacked;
+    }
+    let gaps = count.saturating_sub(1) as f32 * GAP;
+    (stacked - gaps) * seen / first + gaps
+}
+
 /// Places of so many plots: a row, or a column in which the first is highest.
-fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
+pub fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
     let gaps = count.saturating_sub(1) as f32 * GAP;
     if beside {
         let width = (area.width() - gaps) / count as f32;
@@ -278,6 +294,17 @@ fn layout(area: Rect, beside: bool, count: usize) -> Vec<Rect> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_plot_is_cut_where_one_has_room() {
+        for (count, seen) in [(2, 122.0), (3, 128.0), (3, 150.0), (6, 124.0)] {
+            let stacked = least(count).iter().sum::<f32>() + (count - 1) as f32 * GAP;
+            let area = Rect::from_min_size(pos2(0.0, 0.0), vec2(390.0, whole(stacked, count, seen)));
+            assert!((layout(area, false, count)[0].height() - seen).abs() < 0.01, "{count} plots, {seen} seen");
+            // Else a title or more of the next is seen; who has room for all is shown all, and where one has too little it is not squeezed.
+            assert_eq!([160.0, 900.0, 100.0].map(|seen| whole(stacked, count, seen)), [stacked; 3]);
+        }
+    }
 
     #[test]
     fn plots_share_their_edges_and_do_not_overlap() {

@@ -53,62 +53,122 @@ fn heading(ui: &mut Ui, rect: Rect, key: &str, (label, tip): (&str, &str), diffe
         .clicked()
 }
 
-/// Shows a number's row.
-pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out: &mut Vec<Command>) {
-    let Context { scenario, base, note, remembered, touch } = context;
-    let (line_height, rail_height) = if *touch { TOUCH } else { HEIGHTS };
+/// A number that can be slid and typed, in the unit shown.
+pub struct Row<'a> {
+    /// Identity.
+    pub key: &'a str,
+    /// Name.
+    pub label: &'a str,
+    /// What it does, in a sentence or two.
+    pub tip: &'a str,
+    /// Whether it differs from where it goes back to.
+    pub differs: bool,
+    /// Text and unit of the field.
+    pub shown: (&'a str, &'a str),
+    /// Whether a keyboard of digits will do for it.
+    pub digits: bool,
+    /// The value; none while it is switched off.
+    pub value: Option<f64>,
+    /// The value to show meanwhile.
+    pub remembered: Option<f64>,
+    /// How values lie along the slider.
+    pub rail: Rail,
+    /// Where it goes back to.
+    pub notch: Option<f64>,
+    /// What it is called when it is switched on, where it can be.
+    pub switch: Option<&'static str>,
+    /// What was refused last, in words.
+    pub note: Option<&'a str>,
+    /// Whether it is to be large enough for a finger.
+    pub touch: bool,
+}
+
+/// What is asked of a row.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Asked {
+    /// The value it goes back to.
+    Reset,
+    /// What was typed.
+    Typed(String),
+    /// To be switched on or off.
+    Switch(bool),
+    /// A value.
+    Slid(f64),
+}
+
+/// Shows a row; returns what is asked of it.
+pub fn row(ui: &mut Ui, row: &Row<'_>) -> Option<Asked> {
+    let (line_height, rail_height) = if row.touch { TOUCH } else { HEIGHTS };
     let width = ui.available_width();
     let (rect, _) = ui.allocate_exact_size(vec2(width, line_height + rail_height), Sense::hover());
     let line = Rect::from_min_size(rect.min, vec2(width, line_height));
-    let label = control.label(scenario);
-    if heading(ui, line, control.key, (label, &control.tip()), control.differs(scenario, base)) {
-        out.push(Command::Reset(control));
-    }
+    let reset = heading(ui, line, row.key, (row.label, row.tip), row.differs);
+    let mut asked = reset.then_some(Asked::Reset);
 
-    let (shown, unit) = control.text(scenario);
-    let value = control.value(scenario);
-    let wide = if *touch { FIELD + 12.0 } else { FIELD };
+    let (shown, unit) = row.shown;
+    let wide = if row.touch { FIELD + 12.0 } else { FIELD };
     let place = Rect::from_min_max(line.right_top() - vec2(wide, 0.0), line.right_bottom());
-    let name = format!("{label} value");
-    let digits = control.range(scenario).0 >= 0.0 && control.words.is_none();
-    let entry = Field { label: &name, key: control.key, shown: &shown, unit, digits, refused: note.is_some() };
-    if let Some(typed) = field(ui, place, &entry) {
-        out.push(Command::Enter(control, typed));
-    }
-    if control.has_off() {
-        let wide = if *touch { TARGET } else { 32.0 };
+    let name = format!("{} value", row.label);
+    let entry = Field { label: &name, key: row.key, shown, unit, digits: row.digits, refused: row.note.is_some() };
+    asked = field(ui, place, &entry).map(Asked::Typed).or(asked);
+    if let Some(on) = row.switch {
+        let wide = if row.touch { TARGET } else { 32.0 };
         let place = Rect::from_center_size(place.left_center() - vec2(6.0 + 0.5 * wide, 0.0), vec2(wide, line_height));
-        let on = if control.of.off() == Some("auto") { "given" } else { "on" };
-        if toggle(ui, place, &format!("{label} {on}"), value.is_some()) {
-            out.push(Command::Switch(control, value.is_none()));
+        if toggle(ui, place, &format!("{} {on}", row.label), row.value.is_some()) {
+            asked = Some(Asked::Switch(row.value.is_none()));
         }
     }
 
     let track = Rect::from_min_size(line.left_bottom(), vec2(width, rail_height));
-    let spoken = if unit.is_empty() { shown } else { format!("{shown} {unit}") };
-    let moved = slider(
-        ui,
-        track,
-        &Slider {
-            key: control.key,
-            label,
-            spoken: &spoken,
-            rail: Rail { range: control.range(scenario), scale: control.scale },
-            value: value.or(*remembered).unwrap_or(0.0),
-            notch: control.value(base),
-            on: value.is_some(),
-        },
-    );
-    moved.0.on_hover_ui(|ui| {
-        ui.label(control.tip());
+    let spoken = if unit.is_empty() { shown.to_owned() } else { format!("{shown} {unit}") };
+    let slid = Slider {
+        key: row.key,
+        label: row.label,
+        spoken: &spoken,
+        rail: row.rail,
+        value: row.value.or(row.remembered).unwrap_or(0.0),
+        notch: row.notch,
+        on: row.value.is_some(),
+    };
+    let (response, moved) = slider(ui, track, &slid);
+    response.on_hover_ui(|ui| {
+        ui.label(row.tip);
     });
-    if let Some(value) = moved.1 {
-        out.push(Command::Set(control, value));
-    }
-    if let Some(note) = note {
+    if let Some(note) = row.note {
         refusal(ui, note);
     }
     ui.add_space(5.0);
+    moved.map(Asked::Slid).or(asked)
+}
+
+/// Shows a number's row.
+pub fn number(ui: &mut Ui, control: &'static Control, context: &Context<'_>, out: &mut Vec<Command>) {
+    let Context { scenario, base, note, remembered, touch } = *context;
+    let (shown, unit) = control.text(scenario);
+    let asked = row(
+        ui,
+        &Row {
+            key: control.key,
+            label: control.label(scenario),
+            tip: &control.tip(),
+            differs: control.differs(scenario, base),
+            shown: (&shown, unit),
+            digits: control.range(scenario).0 >= 0.0 && control.words.is_none(),
+            value: control.value(scenario),
+            remembered,
+            rail: Rail { range: control.range(scenario), scale: control.scale },
+            notch: control.value(base),
+            switch: control.has_off().then_some(if control.of.off() == Some("auto") { "given" } else { "on" }),
+            note,
+            touch,
+        },
+    );
+    out.extend(asked.map(|asked| match asked {
+        Asked::Reset => Command::Reset(control),
+        Asked::Typed(text) => Command::Enter(control, text),
+        Asked::Switch(on) => Command::Switch(control, on),
+        Asked::Slid(value) => Command::Set(control, value),
+    }));
 }
 
 /// Shows a choice's row.

@@ -21,6 +21,8 @@ pub struct Seen<'a> {
     pub state: &'a State,
     /// The run shown.
     pub run: &'a centrode_core::run::Run,
+    /// The run of several segments, while that is shown.
+    pub chain: Option<&'a crate::app::chain::memo::Memo>,
     /// The playback position, s.
     pub time: f64,
     /// When the centrode was first found to deviate as the step began, s.
@@ -185,7 +187,8 @@ impl App {
         let detection = run.detection().map(|detection| detection.time);
         let began = *self.lesson.began.get_or_insert(detection);
         let placed = self.memo.placed().at(time).is_some_and(|shown| shown.estimate().is_some());
-        let seen = Seen { state: &self.state, run, time, began, plate: &self.lesson.plate, placed };
+        let chain = self.chained();
+        let seen = Seen { state: &self.state, run, chain, time, began, plate: &self.lesson.plate, placed };
         if (TOUR[step].done)(&seen) {
             self.lesson.progress.done.insert(step + 1);
         }

@@ -123,19 +123,8 @@ pub fn paint(
     let (width, size) = if narrow { (0.3 * view.width(), 12.0) } else { (WIDTH, 13.0) };
     let galley = painter.layout(caption.text.clone(), fonts::strong(size), theme.panel, width);
     let size = galley.size() + vec2(20.0, 14.0);
-    let inside = view.shrink(6.0);
-    let free = |place: &Rect| inside.contains_rect(*place) && !taken.iter().any(|other| other.intersects(*place));
-    let near =
-        |place: &Rect| pos2(anchor.x.clamp(place.left(), place.right()), anchor.y.clamp(place.top(), place.bottom()));
-    // Neither it nor its line lies over something.
-    let clear = |place: &Rect| {
-        let line = |k: u8| anchor.lerp(near(place), f32::from(k) / 16.0);
-        !bodies.iter().any(|body| place.expand(4.0).contains(*body))
-            && !(0..=16).map(line).any(|point| taken.iter().any(|other| other.contains(point)))
-    };
-    let place = around(anchor, size).chain(anywhere(anchor, size, inside)).find(|place| free(place) && clear(place));
-    let place = place.or_else(|| around(anchor, size).find(free))?;
-    let near = near(&place);
+    let place = place(anchor, size, view.shrink(6.0), (taken, bodies))?;
+    let near = near(&place, anchor);
     painter.add(Shape::line_segment([anchor, near], Stroke::new(1.5, theme.ink)));
     painter.circle(anchor, 3.5, theme.ink, Stroke::new(1.5, theme.panel));
     painter.rect_filled(place, 8.0, theme.ink);
@@ -144,6 +133,25 @@ pub fn paint(
     response.widget_info(|| WidgetInfo::labeled(Role::Status, true, &caption.text));
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_live(egui::accesskit::Live::Polite));
     Some(place)
+}
+
+/// The point of a place that is nearest to an anchor.
+fn near(place: &Rect, anchor: Pos2) -> Pos2 {
+    pos2(anchor.x.clamp(place.left(), place.right()), anchor.y.clamp(place.top(), place.bottom()))
+}
+
+/// Where something so large stands beside an anchor: clear of what is `taken`, and neither it nor its line over a body; where that cannot
+/// be, over as few points of bodies as can be.
+fn place(anchor: Pos2, size: Vec2, inside: Rect, (taken, bodies): (&[Rect], &[Pos2])) -> Option<Rect> {
+    let free =
+        |place: &Rect| inside.contains_rect(*place) && !taken.iter().any(|other| other.expand(4.0).intersects(*place));
+    let places: Vec<Rect> = around(anchor, size).chain(anywhere(anchor, size, inside)).filter(free).collect();
+    let covered = |place: &Rect| bodies.iter().filter(|body| place.expand(4.0).contains(**body)).count();
+    let clear = |place: &&Rect| {
+        let line = |k: u8| anchor.lerp(near(place, anchor), f32::from(k) / 16.0);
+        covered(place) == 0 && !(0..=16).map(line).any(|point| taken.iter().any(|other| other.contains(point)))
+    };
+    places.iter().find(clear).or_else(|| places.iter().min_by_key(|place| covered(place))).copied()
 }
 
 /// Places around an anchor, the nearest first.
@@ -186,6 +194,24 @@ mod tests {
         // Where they speak of: the contact on the backbone, the end disk well above.
         let (touch, tip) = (captions(&run, contact)[0].anchor, captions(&run, 4.0)[0].anchor);
         assert!((touch.length() - 0.015).abs() < 0.001 && tip.z > 0.027, "{touch} {tip}");
+    }
+
+    #[test]
+    fn where_no_place_is_clear_the_least_is_covered() {
+        let (view, size) = (Rect::from_min_size(Pos2::ZERO, vec2(220.0, 160.0)), vec2(100.0, 60.0));
+        // Points all over, and a disk to the right of the anchor, where a caption would stand first.
+        let anchor = pos2(60.0, 80.0);
+        let over = |k: u16| pos2(f32::from(k % 11) * 20.0, f32::from(k / 11) * 20.0);
+        let disk = |k: u16| pos2(160.0, 60.0) + 14.0 * Vec2::angled(f32::from(k));
+        let bodies: Vec<Pos2> = (0..99).map(over).chain((0..16).map(disk)).collect();
+        let found = place(anchor, size, view, (&[], &bodies)).expect("a place");
+        let covered = |place: &Rect| bodies.iter().filter(|body| place.expand(4.0).contains(**body)).count();
+        let first = around(anchor, size).find(|place| view.contains_rect(*place)).expect("one beside it");
+        assert!(covered(&first) > 16 && (16..115).all(|k| !found.contains(disk(k))), "{found} covers the disk");
+        // With room, none is covered.
+        let free: Vec<Pos2> = bodies.iter().copied().filter(|body| body.x > 115.0).collect();
+        let found = place(anchor, size, view, (&[], &free)).expect("a place");
+        assert!(!free.iter().any(|body| found.contains(*body)), "{found}");
     }
 
     #[test]

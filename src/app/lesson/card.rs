@@ -69,9 +69,8 @@ impl Inputs<'_> {
 
 /// A text over several lines.
 pub(super) fn set_text(ui: &Ui, said: &str, width: f32, size: f32, ink: egui::Color32) -> Arc<Galley> {
-    let mut job = text::rich(said, size, ink);
+    let mut job = text::rich_lines(said, size, ink, 1.45);
     job.wrap.max_width = width;
-    job.sections.iter_mut().for_each(|section| section.format.line_height = Some(1.45 * size));
     ui.painter().layout_job(job)
 }
 

@@ -1,6 +1,7 @@
-//! The tour, as data: ten steps from the instantaneous centre of rotation to what the best detector knows.
+//! The tour, as data: from the instantaneous centre of rotation to what the best detector knows, and to segments in series.
 
 use super::apply::Seen;
+use crate::app::chain::apply::Wish;
 use crate::app::command::Command;
 use crate::app::controls::control::{Choice, Control};
 use crate::app::controls::table::{self, GROUPS};
@@ -11,7 +12,7 @@ use centrode_core::scenario::preset;
 use centrode_core::scenario::{Place, Xi1Rule};
 
 /// How many steps there are.
-pub const STEPS: usize = 10;
+pub const STEPS: usize = 13;
 
 /// One step.
 pub struct Step {
@@ -49,6 +50,13 @@ pub(super) fn at(name: &str, time: f64) -> Vec<Command> {
     // The names stand in this file, and a test takes every step.
     let chosen = preset::find(name).ok().map(Command::Choose);
     let settled = [Command::Pause, Command::Seek(time), Command::ShowTab(Tab::Plots)];
+    chosen.into_iter().chain(settled).collect()
+}
+
+/// Loads a preset with several segments and stops at a time (s).
+fn several(name: &str, time: f64) -> Vec<Command> {
+    let chosen = preset::find_chain(name).map(|preset| Command::Chain(Wish::Choose(preset)));
+    let settled = [Command::Pause, Command::Seek(time), Command::ShowTab(Tab::Result)];
     chosen.into_iter().chain(settled).collect()
 }
 
@@ -148,7 +156,7 @@ pub static TOUR: [Step; STEPS] = [
     },
     Step {
         title: "A filter trades noise for time",
-        text: "The tracker's readings are averaged over the last N of the loop, one each millisecond. A long average is quiet and late; a short one \
+        text: "The tracker's readings are averaged over the last N steps of the loop, one each millisecond. A long average is quiet and late; a short one \
                is early and restless. Most of the delay is the average filling up with motion from after the contact.",
         task: "Shorten the filter until the contact is detected at least 0.2 s sooner.",
         noticed: "Sooner, and the free part of the curve is rougher. Make it much shorter, and noise alone crosses ξ2.",
@@ -205,14 +213,56 @@ pub static TOUR: [Step; STEPS] = [
     Step {
         title: "What the best detector knows",
         text: "CUSUM estimates the errors of calibration while the segment moves, and adds up how much more likely each reading is with a \
-               contact than without. It needs no average, so it is soon. It also says how sure it is: the band on the backbone holds the place \
+               contact than without. It needs no average, so it is quick. It also says how sure it is: the band on the backbone holds the place \
                of contact with 95 % probability.",
         task: "Play, or move the time, past the alarm of CUSUM until the band has become narrow.",
-        noticed: "The frame is off, the length is wrong, and still the contact is found within some hundredths of a second and placed with its uncertainty. You have seen it all: try the challenges.",
+        noticed: "The frame is off, the length is wrong, and still the contact is found within some hundredths of a second and placed with its uncertainty. A chapter on segments in series follows.",
         focus: Focus::Robot,
         controls: &[],
         begin: || and(at("miscalibrated", 5.7), [pick("detection.detectors", "fcd-consistent")]),
         done: |seen| seen.placed && seen.found_by(Method::Cusum).is_some_and(|alarm| seen.time >= alarm + 0.3),
+    },
+    Step {
+        title: "Which segment to blame",
+        text: "Segments in series carry one another. A beam that touches segment 2 bends segment 1 as well, often more than the touched segment itself: the \
+               first disk to deviate tells little. But segments beyond the last contact go on as if nothing had happened, seen from the disk below \
+               them. So the most distal disk that deviates carries the contact.",
+        task: "Play, or move the time, past the first alarm until the contact is placed.",
+        noticed: "Disks 1 and 2 deviate, disk 3 does not: segment 2 is touched. At 6.8 s a second beam touches segment 3, and is told apart from the first.",
+        focus: Focus::Robot,
+        controls: &[],
+        begin: || several("two-contacts", 5.0),
+        done: |seen| {
+            let Some(memo) = seen.chain else { return false };
+            let first = memo.told().first().filter(|told| told.found.deviating.len() > 1);
+            first
+                .and_then(|told| told.at(seen.time))
+                .is_some_and(|estimate| estimate.segment == 1 && estimate.after > 0.0)
+        },
+    },
+    Step {
+        title: "Why torsion matters",
+        text: "A beam that stands aslant pushes a segment out of its bending plane, and its force twists what is below. How far depends on the stiffness in \
+               torsion. With GJ = 5 EI the last disk of three segments stands 1 to 13 mm from where a chain that cannot twist would have it: more than \
+               a threshold. In one plane there is no twist at all.",
+        task: "Play, or move the time, until the end disk is half a millimetre out of its bending plane.",
+        noticed: "The joints still turn in one plane; the robot does not. The place is estimated with all directions of the beam in mind.",
+        focus: Focus::Robot,
+        controls: &[],
+        begin: || several("oblique", 4.0),
+        done: |seen| seen.chain.is_some_and(|memo| memo.aside(seen.time) > 0.0005),
+    },
+    Step {
+        title: "What buckling looks like",
+        text: "A contact far out presses the segments below it together, as a hand presses a ruler. Up to a point they only bend on. Beyond it the shape in \
+               the plane is no longer stable: the smallest push sends the robot sideways, and it comes back only at a smaller bend. The stability margin \
+               says how near that is; at 0 the run ends.",
+        task: "Play, or move the time, to the end of the run, and watch the stability margin.",
+        noticed: "Here it buckles. A rig would snap aside, and what a model of the plane says of it is no longer true. You have seen it all: try the challenges.",
+        focus: Focus::Robot,
+        controls: &[],
+        begin: || several("buckling", 4.0),
+        done: |seen| seen.chain.is_some_and(|memo| memo.gives_way() && seen.time >= memo.end() - 0.02),
     },
 ];
 

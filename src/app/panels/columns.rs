@@ -14,21 +14,7 @@ use centrode_core::record::log::{Format, Role};
 /// Quantities by what they are about.
 const GROUPS: [(&str, &[Role]); 6] = [
     ("Time and position", &[Role::Time, Role::X, Role::Y, Role::Z]),
-    (
-        "Orientation: Euler angles, a quaternion or a rotation vector",
-        &[
-            Role::Azimuth,
-            Role::Elevation,
-            Role::Roll,
-            Role::Qx,
-            Role::Qy,
-            Role::Qz,
-            Role::Qw,
-            Role::Rx,
-            Role::Ry,
-            Role::Rz,
-        ],
-    ),
+    ("Orientation: Euler angles, a quaternion or a rotation vector", &Role::ORIENTATION),
     ("Command: θL or bend, and δ", &[Role::ThetaL, Role::Bend, Role::Delta]),
     ("or joint values", &[Role::Q1, Role::Q2, Role::Q3]),
     ("Load cells", &[Role::Tau1, Role::Tau2, Role::Tau3]),

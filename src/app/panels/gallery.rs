@@ -1,5 +1,7 @@
 //! The presets as a gallery: groups, and for each preset a small picture, its name and a sentence.
 
+use crate::app::chain::apply::Wish;
+use crate::app::chain::thumb::Thumb as ChainThumb;
 use crate::app::charts::plane::thumb::Thumb;
 use crate::app::command::Command;
 use crate::app::fonts;
@@ -7,7 +9,7 @@ use crate::app::mirror;
 use crate::app::panels::title::name;
 use crate::app::theme::Theme;
 use centrode_core::run::simulate;
-use centrode_core::scenario::preset::{self, PRESETS, Preset};
+use centrode_core::scenario::preset::{self, CHAINS, PRESETS, Preset};
 use egui::{CursorIcon, Galley, Rect, Role, Sense, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
 
@@ -21,6 +23,7 @@ pub const GROUPS: &[(&str, &[&str])] = &[
     ("Touch", &["touch-1", "touch-2", "touch-3", "cylinder", "snap"]),
     ("Detection", &["miscalibrated", "play", "load-at-rest"]),
     ("Odd", &["letting-go", "gimbal-lock"]),
+    ("Several segments", &["three-segments", "two-contacts", "reopened", "buckling", "oblique", "tip-only"]),
 ];
 
 /// Size of a picture, points.
@@ -37,6 +40,8 @@ const PAD: f32 = 8.0;
 pub struct Gallery {
     /// In the order of the presets.
     made: Vec<Option<Thumb>>,
+    /// Likewise, of several segments.
+    chains: Vec<Option<ChainThumb>>,
     /// Whether it was shown in the last frame.
     pub(super) open: bool,
 }
@@ -45,7 +50,7 @@ impl Gallery {
     /// Whether pictures are to be made for who looks.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.open && self.made.len() < PRESETS.len()
+        self.open && (self.made.len() < PRESETS.len() || self.chains.len() < CHAINS.len())
     }
 
     /// Makes one picture.
@@ -53,12 +58,19 @@ impl Gallery {
         if let Some(preset) = PRESETS.get(self.made.len()) {
             let run = preset.scenario().and_then(|scenario| simulate(&scenario));
             self.made.push(run.ok().map(|run| Thumb::new(&run)));
+        } else if let Some(preset) = CHAINS.get(self.chains.len()) {
+            self.chains.push(preset.chain(&[]).ok().and_then(|scenario| ChainThumb::new(&scenario)));
         }
     }
 
-    fn picture(&self, preset: &Preset) -> Option<&Thumb> {
-        let place = PRESETS.iter().position(|other| other.name == preset.name)?;
-        self.made.get(place)?.as_ref()
+    fn paint(&self, painter: &egui::Painter, preset: &Preset, rect: Rect, theme: &Theme) {
+        let place = |presets: &[Preset]| presets.iter().position(|other| other.name == preset.name);
+        if let Some(Some(thumb)) = place(PRESETS).and_then(|place| self.made.get(place)) {
+            thumb.paint(painter, rect, theme);
+        }
+        if let Some(Some(thumb)) = place(CHAINS).and_then(|place| self.chains.get(place)) {
+            thumb.paint(painter, rect, theme);
+        }
     }
 
     /// Shows all presets in the width there is; returns whether one was chosen.
@@ -82,7 +94,7 @@ impl Gallery {
             let (rect, response) = ui.allocate_exact_size(vec2(width, heading.size().y + 6.0), Sense::hover());
             response.widget_info(|| WidgetInfo::labeled(Role::Heading, true, *group));
             ui.painter().galley(rect.min + vec2(2.0, 0.0), heading, theme.dim);
-            let presets: Vec<&'static Preset> = names.iter().filter_map(|name| preset::find(name).ok()).collect();
+            let presets: Vec<&'static Preset> = names.iter().filter_map(|name| found(name)).collect();
             ui.push_id(group, |ui| {
                 mirror::mark(ui, mirror::Part::Group, group);
                 for row in presets.chunks(columns as usize) {
@@ -109,7 +121,8 @@ impl Gallery {
             let at = place.min + vec2(k as f32 * (each + GAP), 0.0);
             let rect = Rect::from_min_size(at, vec2(each, high));
             if self.item(ui, rect, (preset, preset.name == chosen.name), texts, theme) {
-                out.push(Command::Choose(preset));
+                let several = preset::find_chain(preset.name).is_some();
+                out.push(if several { Command::Chain(Wish::Choose(preset)) } else { Command::Choose(preset) });
             }
         }
     }
@@ -136,15 +149,18 @@ impl Gallery {
         ui.painter().rect(rect, 8.0, fill, edge, StrokeKind::Inside);
         let picture = Rect::from_min_size(rect.min + Vec2::splat(PAD), PICTURE);
         ui.painter().rect_filled(picture, 5.0, theme.surface);
-        if let Some(thumb) = self.picture(preset) {
-            thumb.paint(ui.painter(), picture, theme);
-        }
+        self.paint(ui.painter(), preset, picture, theme);
         let at = pos2(picture.right() + 10.0, rect.top() + PAD);
         let below = at + vec2(0.0, title.size().y + 2.0);
         ui.painter().galley(at, title, theme.ink);
         ui.painter().galley(below, summary, theme.dim);
         response.clicked()
     }
+}
+
+/// The preset of a name, with one segment or several.
+fn found(name: &str) -> Option<&'static Preset> {
+    preset::find(name).ok().or_else(|| preset::find_chain(name))
 }
 
 /// Name and sentence of a preset that is so wide.
@@ -162,9 +178,9 @@ mod tests {
     #[test]
     fn every_preset_stands_in_one_group() {
         let listed: Vec<&str> = GROUPS.iter().flat_map(|(_, names)| names.iter().copied()).collect();
-        for preset in PRESETS {
+        for preset in PRESETS.iter().chain(CHAINS) {
             assert_eq!(listed.iter().filter(|name| **name == preset.name).count(), 1, "{}", preset.name);
         }
-        assert_eq!(listed.len(), PRESETS.len(), "a name of no preset");
+        assert_eq!(listed.len(), PRESETS.len() + CHAINS.len(), "a name of no preset");
     }
 }

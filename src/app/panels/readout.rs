@@ -16,30 +16,48 @@ use centrode_core::run::Run;
 /// Below this height there is less space around the words, points.
 const LOW: f32 = 290.0;
 /// The least height of a row, points.
-const LEAST: f32 = 15.5;
+const LEAST: f32 = 14.5;
 
-/// Shows the readout of a run, simulated or of a log, and what the calibration filter's alarm says at a time (s).
-pub fn readout(ui: &mut Ui, run: &Run, recorded: Option<&Recorded>, (placed, time): (&Placed, f64)) {
+/// What is read out.
+pub struct Told {
+    /// What the run came to.
+    pub words: String,
+    /// More to know, each with whether it is a warning.
+    pub more: Vec<(String, bool)>,
+    /// In figures.
+    pub figures: Vec<Figure>,
+}
+
+impl Told {
+    /// Of a run of one segment, simulated or of a log, with what the calibration filter's alarm says at a time (s).
+    #[must_use]
+    pub fn of(run: &Run, recorded: Option<&Recorded>, (placed, time): (&Placed, f64)) -> Self {
+        let (words, figures) = match recorded {
+            Some(recorded) => (log::words(run, recorded), log::figures(run)),
+            None => (story::words(run), story::figures(run)),
+        };
+        let said = placing::sentence(run, placed, time).map(|said| (said, false));
+        let more = said.into_iter().chain(placing::warning(placed).map(|said| (said, true)));
+        Self { words, more: more.collect(), figures }
+    }
+}
+
+/// Shows the readout of a run.
+pub fn readout(ui: &mut Ui, told: &Told) {
     let theme = Theme::of(ui);
-    let (words, figures) = match recorded {
-        Some(recorded) => (log::words(run, recorded), log::figures(run)),
-        None => (story::words(run), story::figures(run)),
-    };
+    let Told { words, more, figures } = told;
     let low = ui.max_rect().height() < LOW;
     let edge = if low { 5 } else { 12 };
     sheet::scrolled(ui, |ui| {
         egui::Frame::new().inner_margin(egui::Margin::symmetric(16, edge)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            symbol::label(ui, text::rich(&words, 13.5, theme.ink), false);
-            for (said, color) in
-                [(placing::sentence(run, placed, time), theme.ink), (placing::warning(placed), theme.alarm)]
-            {
-                if let Some(said) = said {
-                    ui.add_space(5.0);
-                    symbol::label(ui, text::rich(&said, 12.5, color), false);
-                }
+            symbol::label(ui, text::rich(words, 13.5, theme.ink), false);
+            for (said, warns) in more {
+                ui.add_space(if low { 4.0 } else { 5.0 });
+                let ink = if *warns { theme.alarm } else { theme.ink };
+                symbol::label(ui, text::rich(said, 12.5, ink), false);
             }
-            ui.add_space(if low { 5.0 } else { 8.0 });
+            ui.add_space(if low { 4.0 } else { 8.0 });
             let wide = ui.available_width() > 430.0;
             let columns = if wide { 2 } else { 1 };
             let rows = figures.len().div_ceil(columns);

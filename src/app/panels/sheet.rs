@@ -10,7 +10,6 @@ use crate::app::command::Command;
 use crate::app::fonts;
 use crate::app::layout::sheet::{Handle, Sheet, Stop};
 use crate::app::layout::tab_strip;
-use crate::app::stages::stage::Stage;
 use crate::app::state::State;
 use crate::app::theme::{ROUND, Theme};
 use crate::app::widgets::{finger, focus, text};
@@ -53,7 +52,7 @@ fn pull(ui: &Ui, points: f32) {
 /// the way from one stop to another.
 pub fn place(ui: &Ui, state: &State, still: bool, out: &mut Vec<Command>) -> Sheet {
     let ctx = ui.ctx();
-    let fixed = state.lesson.is_some() || !state.sheet && state.stage != Stage::Robot;
+    let fixed = state.lesson.is_some() || !state.sheet && !state.stage.is_run();
     let rests = if fixed { Stop::Half } else { state.stop }.at();
     let drag = drag(ctx);
     let Some(pulled) = drag.pulled.filter(|_| !fixed) else {

@@ -6,13 +6,13 @@ use crate::app::command::Command;
 use crate::app::state::Tab;
 use crate::app::widgets::segmented::segmented;
 
-const TABS: [(Tab, &str); 3] = [(Tab::Result, "Result"), (Tab::Plots, "Plots"), (Tab::Plane, "Bending plane")];
+const TABS: [Tab; 3] = [Tab::Result, Tab::Plots, Tab::Plane];
 
-/// Shows the tabs.
-pub fn tabs(ui: &mut Ui, rect: Rect, shown: Tab, out: &mut Vec<Command>) {
-    let names = TABS.map(|(_, name)| name);
-    let chosen = TABS.iter().position(|(tab, _)| *tab == shown).unwrap_or(0);
+/// Shows the tabs of a run of one segment, or of several.
+pub fn tabs(ui: &mut Ui, rect: Rect, (shown, several): (Tab, bool), out: &mut Vec<Command>) {
+    let names = ["Result", "Plots", if several { "Backbone" } else { "Bending plane" }];
+    let chosen = TABS.iter().position(|tab| *tab == shown).unwrap_or(0);
     if let Some(picked) = segmented(ui, rect, "Views", &names, chosen) {
-        out.push(Command::ShowTab(TABS[picked].0));
+        out.push(Command::ShowTab(TABS[picked]));
     }
 }

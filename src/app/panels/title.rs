@@ -9,6 +9,7 @@ use crate::app::controls::row::TARGET;
 use crate::app::fonts;
 use crate::app::panels::gallery::Gallery;
 use crate::app::panels::{menu, share};
+use crate::app::stages::stage::Stage;
 use crate::app::state::State;
 use crate::app::theme::{Theme, ThemeChoice};
 use crate::app::widgets::finger;
@@ -116,7 +117,8 @@ fn mark(ui: &Ui, center: egui::Pos2, theme: &Theme) {
 
 fn presets(ui: &mut Ui, rect: Rect, state: &State, gallery: &mut Gallery, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let chosen = state.preset();
+    let several = state.stage == Stage::Chain;
+    let chosen = if several { state.chain.preset() } else { state.preset() };
     let title = name(chosen);
     let response = combo(ui, rect, "Preset", &title, &theme);
 

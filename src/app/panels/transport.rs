@@ -24,8 +24,44 @@ pub const FLAT: f32 = 52.0;
 /// Height in two rows, points.
 pub const TALL: f32 = 104.0;
 
+/// A mark on the time of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Mark {
+    /// Something touches from a time on, s.
+    Contact(f64),
+    /// The robot has come off it, s.
+    LetGo(f64),
+    /// An alarm, s.
+    Alarm(f64),
+}
+
+/// The time of a run: what stands on its rail.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    /// When it ends, s.
+    pub end: f64,
+    /// From when alarms are armed, s.
+    pub armed_from: f64,
+    /// What happens.
+    pub marks: Vec<Mark>,
+    /// The same in words.
+    pub said: String,
+}
+
+impl Track {
+    /// Of a run of one segment.
+    #[must_use]
+    pub fn of(run: &Run) -> Self {
+        let contact = run.contact_time().map(Mark::Contact);
+        let marks = contact.into_iter().chain(let_go(run).map(|(_, time)| Mark::LetGo(time)));
+        let marks = marks.chain(run.detection().map(|detection| Mark::Alarm(detection.time)));
+        let armed_from = run.plan.scenario().detection.armed_from;
+        Self { end: memo::end(run), armed_from, marks: marks.collect(), said: marks_said(run) }
+    }
+}
+
 /// Shows playback with the cursor (s) of the views; in two rows where it is narrow.
-pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f64), out: &mut Vec<Command>) {
+pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Track, f64), out: &mut Vec<Command>) {
     let narrow = rect.height() > FLAT + 1.0;
     let fingers = narrow || finger::is_welcome(ui);
     let size = if fingers { TARGET } else { 34.0 };
@@ -73,8 +109,9 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
         out.push(Command::ToggleLoop);
     }
     let rail_width = if narrow { (right - left - 44.0).clamp(44.0, 110.0) } else { 92.0 };
-    right -= if narrow { 2.0 } else { 8.0 };
-    speed(ui, pos2(right, y), rail_width, size, state, out);
+    right -= if narrow { 6.0 } else { 8.0 };
+    let word = if narrow { 34.0 } else { 38.0 };
+    speed(ui, pos2(right, y), (rail_width, word), size, state, out);
     right -= rail_width + 56.0;
 
     let track = if narrow {
@@ -86,11 +123,19 @@ pub fn transport(ui: &mut Ui, rect: Rect, (state, run, cursor): (&State, &Run, f
     scrub(ui, track, run, cursor, out);
 }
 
-fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State, out: &mut Vec<Command>) {
+/// The speed: a slider and a word, which are so wide, points.
+fn speed(
+    ui: &mut Ui,
+    right: egui::Pos2,
+    (width, word): (f32, f32),
+    height: f32,
+    state: &State,
+    out: &mut Vec<Command>,
+) {
     let theme = Theme::of(ui);
     let spoken = format!("{}×", quantity::number(state.speed, 1));
     text::paint(ui, right, Align2::RIGHT_CENTER, &spoken, fonts::regular(13.0), theme.dim);
-    let track = Rect::from_min_max(right - vec2(width + 38.0, height / 2.0), right + vec2(-38.0, height / 2.0));
+    let track = Rect::from_min_max(right - vec2(width + word, height / 2.0), right + vec2(-word, height / 2.0));
     let rail = Rail { range: (0.1, 4.0), scale: Scale::Log(0.1) };
     let (response, moved) = slider::slider(
         ui,
@@ -104,10 +149,9 @@ fn speed(ui: &mut Ui, right: egui::Pos2, width: f32, height: f32, state: &State,
     }
 }
 
-fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>) {
+fn scrub(ui: &mut Ui, rect: Rect, run: &Track, cursor: f64, out: &mut Vec<Command>) {
     let theme = Theme::of(ui);
-    let scenario = run.plan.scenario();
-    let rail = Rail { range: (0.0, memo::end(run)), scale: Scale::Linear(0.001) };
+    let rail = Rail { range: (0.0, run.end), scale: Scale::Linear(0.001) };
     let spoken = format!("{} s", number(cursor, 3));
     let shape = Slider { key: "time", label: "Time", spoken: &spoken, rail, value: cursor, notch: None, on: true };
     let (response, asked) = slider::sense(ui, rect, &shape);
@@ -123,7 +167,7 @@ fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>
         painter.rect_filled(Rect::from_x_y_ranges(from..=to, y - half..=y + half), half, color);
     };
     bar(start, end, 2.5, theme.faint);
-    let armed = at(scenario.detection.armed_from);
+    let armed = at(run.armed_from);
     // Before arming the rail is thin: nothing can be noticed there.
     painter.rect_filled(Rect::from_x_y_ranges(start..=armed, y - 3.0..=y - 1.0), 0.0, theme.panel);
     painter.rect_filled(Rect::from_x_y_ranges(start..=armed, y + 1.0..=y + 3.0), 0.0, theme.panel);
@@ -132,29 +176,36 @@ fn scrub(ui: &mut Ui, rect: Rect, run: &Run, cursor: f64, out: &mut Vec<Command>
         bar(armed, x, 2.5, theme.accent);
     }
     painter.vline(armed, y - 6.0..=y + 6.0, Stroke::new(1.5, theme.dim));
-    if let Some(contact) = run.contact_time() {
-        let (x, top) = (at(contact), y + 6.0);
-        let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
-        painter.add(Shape::convex_polygon(points, theme.obstacle, Stroke::NONE));
-    }
-    if let Some((_, time)) = let_go(run) {
-        let (x, top) = (at(time), y + 6.0);
-        let points = vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)];
-        painter.add(Shape::closed_line(points, Stroke::new(1.5, theme.obstacle)));
-    }
-    if let Some(detection) = run.detection() {
-        let center = pos2(at(detection.time), y - 10.0);
-        let points = [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)].map(|v| center + v).to_vec();
-        painter.add(Shape::convex_polygon(points, theme.detection, Stroke::NONE));
+    for mark in &run.marks {
+        match *mark {
+            Mark::Contact(time) => {
+                painter.add(Shape::convex_polygon(below(at(time), y), theme.obstacle, Stroke::NONE));
+            }
+            Mark::LetGo(time) => {
+                painter.add(Shape::closed_line(below(at(time), y), Stroke::new(1.5, theme.obstacle)));
+            }
+            Mark::Alarm(time) => {
+                let center = pos2(at(time), y - 10.0);
+                let points =
+                    [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)].map(|v| center + v).to_vec();
+                painter.add(Shape::convex_polygon(points, theme.detection, Stroke::NONE));
+            }
+        }
     }
     slider::paint_handle(ui, &response, x, true);
     response.on_hover_ui(|ui| {
-        ui.label(marks(run));
+        ui.label(&run.said);
     });
 }
 
+/// A triangle below the rail that points at it.
+fn below(x: f32, y: f32) -> Vec<egui::Pos2> {
+    let top = y + 6.0;
+    vec![pos2(x, top), pos2(x + 5.0, top + 8.0), pos2(x - 5.0, top + 8.0)]
+}
+
 /// What the marks on the rail are.
-fn marks(run: &Run) -> String {
+fn marks_said(run: &Run) -> String {
     let mut said = format!("Armed from {} s", number(run.plan.scenario().detection.armed_from, 2));
     if let Some(contact) = run.contact_time() {
         said += &format!(" · contact at {} s", number(contact, 3));

@@ -10,7 +10,7 @@ use crate::app::widgets::segmented::{Segment, segments};
 use crate::app::widgets::text;
 
 /// The widest the bar gets, points.
-const WIDTH: f32 = 380.0;
+const WIDTH: f32 = 440.0;
 /// Its height, points.
 const HEIGHT: f32 = 34.0;
 /// The same where fingers are: nothing but this row is there.
@@ -28,6 +28,7 @@ pub fn views(ui: &mut Ui, rect: Rect, stage: Stage, paper: Stage, out: &mut Vec<
     if let Some(picked) = segments(ui, bar, ("Bar of views", Role::Tab), &options, chosen) {
         out.push(Command::Show(match Section::ALL[picked] {
             Section::Robot => Stage::Robot,
+            Section::Chain => Stage::Chain,
             Section::Paper => paper,
             Section::Map => Stage::Map,
             Section::Tuning => Stage::Tuning,

@@ -1,5 +1,6 @@
 //! What the large part of the page shows: the robot, something of the paper, the map or the tuning.
 
+use centrode_core::scenario::link::page;
 use centrode_core::study::figure::Number;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +11,8 @@ pub enum Stage {
     /// The robot in 3D and in its bending plane.
     #[default]
     Robot,
+    /// Segments in series.
+    Chain,
     /// The bound of the joint forces over the bend.
     Figure3,
     /// Centrode loci with and without constraint.
@@ -35,6 +38,8 @@ pub enum Stage {
 pub enum Section {
     /// The robot.
     Robot,
+    /// Segments in series.
+    Chain,
     /// Figures and Table II.
     Paper,
     /// The map.
@@ -45,13 +50,14 @@ pub enum Section {
 
 impl Section {
     /// All of them, in the order offered.
-    pub const ALL: [Self; 4] = [Self::Robot, Self::Paper, Self::Map, Self::Tuning];
+    pub const ALL: [Self; 5] = [Self::Robot, Self::Chain, Self::Paper, Self::Map, Self::Tuning];
 
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Robot => "Robot",
+            Self::Chain => "Segments",
             Self::Paper => "Paper",
             Self::Map => "Map",
             Self::Tuning => "Tuning",
@@ -63,6 +69,7 @@ impl Section {
     pub fn summary(self) -> &'static str {
         match self {
             Self::Robot => Stage::Robot.summary(),
+            Self::Chain => Stage::Chain.summary(),
             Self::Paper => "Five figures of the paper and its Table II, simulated here",
             Self::Map => Stage::Map.summary(),
             Self::Tuning => Stage::Tuning.summary(),
@@ -72,8 +79,9 @@ impl Section {
 
 impl Stage {
     /// All of them, in the order offered.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Robot,
+        Self::Chain,
         Self::Figure3,
         Self::Figure4,
         Self::Figure6,
@@ -92,11 +100,18 @@ impl Stage {
     /// Those of the tuning.
     pub const TUNING: [Self; 2] = [Self::Tuning, Self::Detectors];
 
+    /// Whether it is a robot as it moves, with views around it, rather than a study in their place.
+    #[must_use]
+    pub fn is_run(self) -> bool {
+        matches!(self, Self::Robot | Self::Chain)
+    }
+
     /// The view that it belongs to.
     #[must_use]
     pub fn section(self) -> Section {
         match self {
             Self::Robot => Section::Robot,
+            Self::Chain => Section::Chain,
             Self::Map => Section::Map,
             Self::Tuning | Self::Detectors => Section::Tuning,
             _ => Section::Paper,
@@ -121,7 +136,7 @@ impl Stage {
             Self::Figure6 => Some(Number::Six),
             Self::Figure7 => Some(Number::Seven),
             Self::Figure8 => Some(Number::Eight),
-            Self::Robot | Self::Table2 | Self::Map | Self::Tuning | Self::Detectors => None,
+            Self::Robot | Self::Chain | Self::Table2 | Self::Map | Self::Tuning | Self::Detectors => None,
         }
     }
 
@@ -130,6 +145,7 @@ impl Stage {
     pub fn key(self) -> &'static str {
         match self {
             Self::Robot => "robot",
+            Self::Chain => page::CHAIN,
             Self::Figure3 => "figure-3",
             Self::Figure4 => "figure-4",
             Self::Figure6 => "figure-6",
@@ -147,6 +163,7 @@ impl Stage {
     pub fn name(self) -> &'static str {
         match self {
             Self::Robot => "Robot",
+            Self::Chain => "Segments",
             Self::Figure3 => "Figure 3",
             Self::Figure4 => "Figure 4",
             Self::Figure6 => "Figure 6",
@@ -165,6 +182,7 @@ impl Stage {
         match (self, self.figure()) {
             (_, Some(number)) => number.title(),
             (Self::Table2, _) => "Contact on three disks: the paper's experiment and the simulated one",
+            (Self::Chain, _) => "Several segments in series, several contacts: which segment is touched, and where",
             (Self::Map, _) => "Which contacts are detectable: the largest thresholds that find them, by place and bend",
             (Self::Tuning, _) => "Choose thresholds and filter: false alarms against delay, from repeated runs",
             (Self::Detectors, _) => "Which detector is soonest at equal false alarms, and how true its places are",

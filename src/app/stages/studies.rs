@@ -166,7 +166,7 @@ mod tests {
             studies.update(stage, &scenario);
             let frames = finish(&mut studies);
             // Both of the tuning view have studies of their own.
-            let none = matches!(stage, Stage::Robot | Stage::Tuning | Stage::Detectors);
+            let none = matches!(stage, Stage::Robot | Stage::Chain | Stage::Tuning | Stage::Detectors);
             assert_eq!(studies.found().is_some(), !none, "{stage:?}");
             assert!(none || stage == Stage::Figure3 || frames > 1, "{stage:?}: {frames} frames");
             assert_eq!(studies.progress(), None);

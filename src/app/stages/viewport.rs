@@ -1,13 +1,14 @@
 //! The 3D view: the one file that joins egui and the renderer.
 
 mod notes;
+pub mod subject;
 
 use std::sync::Arc;
 
 use crate::app::command::Command;
 use crate::app::lesson::captions::Caption;
 use crate::app::panels::save;
-use crate::app::saving::Subject;
+use crate::app::saving::Subject as Saved;
 use egui::{Align2, CursorIcon, EventFilter, Key, PointerButton, Rect, Response, Role, Sense, Ui, WidgetInfo, vec2};
 
 use crate::app::fonts;
@@ -17,14 +18,7 @@ use crate::app::widgets::icon::{self, Icon, Look};
 use crate::render::{Frame, Lost, Pixels, Renderer, Snapshot, ViewId};
 use crate::scene::palette::{Palette, Shade};
 use crate::scene::{Camera, Scene, Studio};
-use crate::show::obstacle::only_touches;
-use crate::show::track::Trace;
-use crate::show::{ViewOptions, home_camera, view};
-use centrode_core::detect::calibration::marginal::Estimate;
-use centrode_core::run::Run;
-
-/// The ring around a fresh detection runs for this long, s of the run.
-const PULSE: f64 = 0.9;
+use subject::Subject;
 
 /// What an arrow key turns or moves, as a drag of so many points; how far a key zooms, as a logarithm.
 const TURN: f32 = 20.0;
@@ -39,7 +33,8 @@ const CHIP: (egui::Vec2, egui::Vec2) = (vec2(12.0, 12.0), vec2(212.0, 30.0));
 #[derive(Default)]
 pub struct ViewState {
     gpu: Option<egui_wgpu::RenderState>,
-    camera: Option<Camera>,
+    /// Of each kind of subject, where it was moved.
+    cameras: [Option<Camera>; 2],
     /// How it was last shown: from where, and how large in points.
     seen: Option<(Camera, egui::Vec2)>,
     /// A picture on its way to a file of this name.
@@ -56,12 +51,11 @@ pub struct ViewState {
 /// All that the scene depends on.
 #[derive(Debug, PartialEq)]
 struct Shown {
+    kind: usize,
     version: u64,
     time: f64,
     shade: Shade,
-    frozen: bool,
-    /// Mean and ends of the contact's place, m.
-    placed: Option<[f64; 3]>,
+    settings: Vec<u64>,
 }
 
 impl ViewState {
@@ -118,30 +112,25 @@ impl ViewState {
     }
 
     /// Builds the scene again when what it depends on has changed.
-    fn update(&mut self, run: &Run, trace: &Trace, placed: Option<&Estimate>, shown: Shown) {
+    fn update(&mut self, subject: &Subject<'_>, shown: Shown) {
         if self.shown.as_ref() == Some(&shown) {
             return;
         }
-        let Shown { time, shade, frozen, .. } = shown;
-        let since = run.detection().map_or(f64::INFINITY, |detection| time - detection.time);
-        let pulse = if self.still || !(0.0..PULSE).contains(&since) { 0.0 } else { (since / PULSE) as f32 };
-        let options = ViewOptions { palette: Palette::of(shade), pulse, frozen, placed };
-        let mut scene = view(run, trace, time, &options);
-        scene.thicken(options.palette.weight);
+        let palette = Palette::of(shown.shade);
+        let mut scene = subject.scene(shown.time, palette, self.still);
+        scene.thicken(palette.weight);
         self.scene = Arc::new(scene);
         self.version += 1;
         self.shown = Some(shown);
     }
 }
 
-/// Shows the 3D view in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
-/// `version` is another for every other run; `frozen` shows the shape by the paper's model besides, `placed` where the calibration
-/// filter places the contact.
+/// Shows the 3D view at a time (s) in all of `ui`: drag to orbit, with the right button or Shift to move, scroll or pinch to zoom.
+/// `version` is another for every other run.
 pub fn viewport(
     ui: &mut Ui,
-    (run, version): (&Run, u64),
-    trace: &Trace,
-    (cursor, frozen, placed): (f64, bool, Option<&Estimate>),
+    subject: &Subject<'_>,
+    (version, cursor): (u64, f64),
     state: &mut ViewState,
     out: &mut Vec<Command>,
 ) {
@@ -157,12 +146,12 @@ pub fn viewport(
     ui.ctx().accesskit_node_builder(response.id, |node| node.set_description(KEYS));
     finger::claim(ui, rect);
     state.focused = response.has_focus();
-    let home = home_camera(run);
-    let mut camera = state.camera.take().unwrap_or(home);
+    let home = subject.home();
+    let mut camera = state.cameras[subject.kind()].take().unwrap_or(home);
     steer(ui, &response, rect, &mut camera);
     let home_asked = steer_by_keys(ui, &response, &mut camera);
-    let place = placed.map(|estimate| [estimate.place.mean, estimate.place.low, estimate.place.high]);
-    state.update(run, trace, placed, Shown { version, time: cursor, shade: theme.shade, frozen, placed: place });
+    let (kind, settings) = (subject.kind(), subject.settings());
+    state.update(subject, Shown { kind, version, time: cursor, shade: theme.shade, settings });
 
     let size = rect.size() * ui.pixels_per_point();
     let studio = Palette::of(theme.shade).studio;
@@ -174,7 +163,7 @@ pub fn viewport(
     let file = button.translate(apart);
     let chip = Rect::from_min_size(rect.min + CHIP.0, CHIP.1);
     let mut taken = vec![button, file, chip];
-    if only_touches(run) {
+    if let Some(frozen) = subject.compared() {
         let compare = file.translate(apart);
         taken.push(compare);
         let look = if frozen { Look::Lit } else { Look::Plain };
@@ -182,14 +171,14 @@ pub fn viewport(
             out.push(Command::ToggleFrozen);
         }
     }
-    notes::notes(ui, rect, &camera, (run, frozen), (&state.scene, &state.captions), taken);
+    notes::notes(ui, rect, &camera, subject, (&state.scene, &state.captions), taken);
     state.seen = Some((camera, rect.size()));
-    save::menu(ui, file, Subject::View, out);
+    save::menu(ui, file, Saved::View, out);
     let reset = icon::button(ui, button, Icon::Reset, "Reset view", Look::Plain).clicked()
         || response.double_clicked()
         || home_asked;
     // A camera is kept only when it was moved: until then it follows the robot's size.
-    state.camera = (!reset && camera != home).then_some(camera);
+    state.cameras[kind] = (!reset && camera != home).then_some(camera);
 }
 
 /// Moves the camera as the pointer and the fingers say.

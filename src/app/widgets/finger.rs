@@ -32,6 +32,13 @@ pub fn around(ui: &Ui, rect: Rect) -> Rect {
     Rect::from_center_size(rect.center(), vec2(at_least(ui, rect.width()), at_least(ui, rect.height())))
 }
 
+/// Whether what the pointer does in this frame is a finger's doing.
+#[must_use]
+pub fn is_down(ui: &Ui) -> bool {
+    let touch = |event: &egui::Event| matches!(event, egui::Event::Touch { .. });
+    ui.input(|input| input.any_touches() || input.events.iter().any(touch))
+}
+
 fn id() -> Id {
     Id::unique("finger")
 }

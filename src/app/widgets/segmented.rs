@@ -8,6 +8,9 @@ use crate::app::theme::Theme;
 use crate::app::widgets::symbol;
 use crate::app::widgets::text;
 
+/// Size of the words, points.
+const SIZE: f32 = 12.5;
+
 /// One option.
 #[derive(Debug, Clone, Copy)]
 pub struct Segment<'a> {
@@ -95,7 +98,10 @@ fn parts(
             ui.painter().rect(part, 5.0, fill, Stroke::new(1.0, theme.faint), StrokeKind::Inside);
         }
         let ink = if held || response.hovered() { theme.ink } else { theme.dim };
-        let font = if held { fonts::strong(12.5) } else { fonts::regular(12.5) };
+        // A long word is smaller rather than cut, and as large when it is chosen.
+        let wide = text::width(ui, option.text, fonts::strong(SIZE));
+        let size = (SIZE * (part.width() - 6.0) / wide).clamp(10.5, SIZE);
+        let font = if held { fonts::strong(size) } else { fonts::regular(size) };
         text::paint(ui, part.center(), Align2::CENTER_CENTER, option.text, font, ink);
         if response.clicked() {
             clicked = Some(i);

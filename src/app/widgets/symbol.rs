@@ -1,4 +1,5 @@
-//! Symbols in texts: named under the pointer or the keyboard's focus, and one click from their place in the theory.
+//! Symbols in texts: named under the pointer or the keyboard's focus, and one click from their place in the theory. A finger cannot point
+//! before it taps: its tap names a symbol, and the note that says so leads on.
 //!
 //! A text that may hold symbols is painted by [`galley`], [`upright`] or [`label`], which note where they stand; at the end of a pass
 //! [`links`] makes a link of each place. What is on a button is the button's: its symbols are named, and no links.
@@ -9,16 +10,21 @@ use std::sync::Arc;
 use egui::epaint::TextShape;
 use egui::text::{CCursor, LayoutJob};
 use egui::text_selection::LabelSelectionState;
-use egui::{Color32, CursorIcon, Galley, Id, Label, LayerId, Painter, Pos2, Rect, Response, Role};
+use egui::{Color32, CursorIcon, Galley, Id, Label, LayerId, Painter, Popup, PopupKind, Pos2, Rect, Response, Role};
 use egui::{Sense, Stroke, Ui, UiBuilder, WidgetInfo, pos2, vec2};
 
 use crate::app::command::Command;
+use crate::app::controls::row::TARGET;
 use crate::app::theme::Theme;
+use crate::app::widgets::button::button;
+use crate::app::widgets::finger;
 use crate::app::widgets::text::rich;
 use centrode_core::symbols::{Symbol, spans, within};
 
 /// So much around a symbol is it, too, points.
 const AROUND: egui::Vec2 = vec2(1.5, 2.0);
+/// Size of what a finger goes on by from a note, points.
+const NOTE: egui::Vec2 = vec2(180.0, TARGET);
 
 /// A symbol where it stands.
 #[derive(Clone, Copy)]
@@ -83,8 +89,15 @@ fn note(painter: &Painter, galley: &Galley, place: impl Fn(Rect) -> Rect) {
     }
 }
 
+/// The place of a symbol that a finger has tapped: it stays named until something else is tapped or dragged.
+#[derive(Clone, Copy, Default)]
+struct Tapped(Option<Id>);
+
 /// Makes links of all symbols that were noted in this pass. The first place of each takes the keyboard; the pointer finds them all.
 pub fn links(ui: &mut Ui, out: &mut Vec<Command>) {
+    let tapped = ui.data(|data| data.get_temp::<Tapped>(Id::NULL).unwrap_or_default());
+    let elsewhere = ui.input(|input| input.pointer.any_click() || input.pointer.is_decidedly_dragging());
+    let mut next = Tapped::default();
     let noted = ui.data_mut(|data| std::mem::take(&mut data.get_temp_mut_or_default::<Noted>(Id::NULL).0));
     let mut places: BTreeMap<&str, usize> = BTreeMap::new();
     for spot in noted {
@@ -96,12 +109,19 @@ pub fn links(ui: &mut Ui, out: &mut Vec<Command>) {
         let id = Id::unique(("symbol", spot.symbol.id, *place));
         let mut child = ui.new_child(UiBuilder::new().layer_id(spot.layer).max_rect(spot.rect));
         child.set_clip_rect(spot.clip);
-        link(&child, &spot, (id, *place == 0), out);
+        let was_tapped = tapped.0 == Some(id);
+        let is_tapped = link(&child, &spot, (id, *place == 0, was_tapped), out);
+        if is_tapped || was_tapped && !elsewhere {
+            next = Tapped(Some(id));
+        }
         *place += 1;
     }
+    ui.data_mut(|data| data.insert_temp(Id::NULL, next));
 }
 
-fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
+/// Makes a link of a symbol where it stands, the `first` place for the keyboard, too; returns whether a finger has tapped it now and not
+/// before, and is to be told what it is.
+fn link(ui: &Ui, spot: &Spot, (id, first, was_tapped): (Id, bool, bool), out: &mut Vec<Command>) -> bool {
     let Spot { symbol, rect, .. } = *spot;
     let sense = if first { Sense::click() } else { Sense::CLICK };
     let response = ui.interact(rect, id, sense).on_hover_cursor(CursorIcon::PointingHand);
@@ -113,8 +133,16 @@ fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
         let y = ui.painter().round_to_pixel_center(rect.bottom() - AROUND.y);
         ui.painter().hline(rect.x_range(), y, Stroke::new(1.0, Theme::of(ui).dim));
     }
-    if response.clicked() {
+    let asks = response.clicked() && finger::is_down(ui) && !was_tapped;
+    if response.clicked() && !asks {
         out.push(Command::Theory(Some(symbol)));
+    }
+    if asks || was_tapped {
+        let note = Popup::from_response(&response).kind(PopupKind::Tooltip).show(|ui| led_on(ui, symbol));
+        if note.is_some_and(|note| note.inner) {
+            out.push(Command::Theory(Some(symbol)));
+        }
+        return asks;
     }
     let how = if response.has_focus() { "Enter" } else { "Click" };
     let names = |ui: &mut Ui| {
@@ -126,6 +154,14 @@ fn link(ui: &Ui, spot: &Spot, (id, first): (Id, bool), out: &mut Vec<Command>) {
     } else {
         response.on_hover_ui(names);
     }
+    false
+}
+
+/// Names a symbol to a finger; returns whether that goes on from there.
+fn led_on(ui: &mut Ui, symbol: &Symbol) -> bool {
+    named(ui, symbol);
+    let (bar, _) = ui.allocate_exact_size(NOTE, Sense::hover());
+    button(ui, bar, "Its place in the theory", &Theme::of(ui))
 }
 
 /// Names the symbols of what is written on a button under the pointer.

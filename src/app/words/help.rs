@@ -7,7 +7,7 @@ use crate::app::fonts;
 use crate::app::theme::Theme;
 use crate::app::widgets::icon::{self, Icon, Look};
 use crate::app::widgets::symbol;
-use crate::app::widgets::text::rich;
+use crate::app::widgets::text::rich_lines;
 use crate::app::widgets::toggle::toggle;
 use crate::app::words::keys;
 
@@ -105,8 +105,7 @@ pub fn help(ui: &mut Ui, (sound, by_key): (bool, bool), out: &mut Vec<Command>) 
                 for (title, body) in PARAGRAPHS {
                     ui.add_space(6.0);
                     heading(ui, title, 13.5, &theme);
-                    let mut text = rich(body, 13.5, theme.ink.lerp_to_gamma(theme.dim, 0.4));
-                    text.sections.iter_mut().for_each(|section| section.format.line_height = Some(20.0));
+                    let text = rich_lines(body, 13.5, theme.ink.lerp_to_gamma(theme.dim, 0.4), 1.48);
                     symbol::label(ui, text, false);
                 }
                 ui.add_space(10.0);

@@ -1,10 +1,12 @@
 //! Refusals in the page's own terms: a control's label for its key, and the unit it shows for SI.
 
+use crate::app::chain;
 use crate::app::controls::control::Control;
 use crate::app::controls::quantity::number;
 use crate::app::controls::table;
+use centrode_core::scenario::chain::Fault;
 use centrode_core::scenario::keys::{Quantity, Units, Value};
-use centrode_core::scenario::{Refused, ScenarioError};
+use centrode_core::scenario::{ChainError, Refused, ScenarioError};
 
 /// The control of what is refused; none when no control sets it.
 #[must_use]
@@ -30,6 +32,35 @@ pub fn told(refusal: &ScenarioError) -> String {
         (ScenarioError::Value(refused), None) => refused.told(Units::Shown),
         _ => refusal.to_string(),
     }
+}
+
+/// Why an experiment with several segments is refused.
+#[must_use]
+pub fn of_chain(refusal: &ChainError) -> String {
+    let Fault::Scenario(ScenarioError::Value(refused)) = &refusal.fault else { return refusal.fault.to_string() };
+    let Refused { key, quantity, value, allowed } = &**refused;
+    let Some(name) = called_in_chain(key) else { return refused.told(Units::Shown) };
+    format!("{name} {}: {}", value.told(*quantity, Units::Shown), allowed.words(*quantity, Units::Shown))
+}
+
+/// The same of a file, with the line where there is one.
+#[must_use]
+pub fn of_chain_file(refusal: &ChainError) -> String {
+    match refusal.line {
+        Some(line) => format!("Line {line}: {}", of_chain(refusal)),
+        None => of_chain(refusal),
+    }
+}
+
+/// What the page calls a key of an experiment with several segments; none when no control sets it.
+fn called_in_chain(key: &str) -> Option<String> {
+    let (of, own) = match key.split_once("].") {
+        Some((of, own)) => (Some(of.replace('[', " ")), own),
+        None => (None, key),
+    };
+    let label = chain::own::all().find(|row| row.key == own).map(|row| row.label);
+    let label = label.or_else(|| called(own)).or_else(|| called(&format!("robot.{own}")))?;
+    Some(of.map_or_else(|| label.into(), |of| format!("{label} of {of}")))
 }
 
 /// What the page calls a key; none when no control sets it.

@@ -242,7 +242,9 @@ impl Page {
     /// All widgets. The page must have been opened with `?test`.
     #[track_caller]
     pub fn widgets(&mut self) -> Vec<Widget> {
-        let json = self.eval("centrode.widgets()");
+        let json = self.eval(
+            "(canvas => centrode.widgets(canvas.getBoundingClientRect().width / canvas.width))(document.getElementById('canvas'))",
+        );
         serde_json::from_str(json.as_str().unwrap_or_default()).expect("a list of widgets")
     }
 
@@ -411,10 +413,11 @@ impl Page {
 
     /// Taps with a finger.
     pub fn tap(&mut self, [x, y]: [f64; 2]) {
+        // No frame between, as for a click.
         for (what, points) in [("touchStart", json!([{ "x": x, "y": y }])), ("touchEnd", json!([]))] {
             self.chromium.call("Input.dispatchTouchEvent", json!({ "type": what, "touchPoints": points }));
-            self.frames();
         }
+        self.frames();
     }
 
     /// A finger that comes down at one place, goes to another and is lifted there.

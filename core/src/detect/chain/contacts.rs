@@ -162,7 +162,9 @@ impl ChainJudged {
         Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, tilt: estimate.tilt?, began })
     }
 
-    fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
+    /// What is known of one of the contacts that a detector tells of, so long after its alarm (s); none where the run ends before, or nothing is.
+    #[must_use]
+    pub fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
         let time = contact.alarm + after;
         if self.end < time {
             return None;

@@ -1,12 +1,13 @@
 //! From a log to a recording: everything on the loop's clock.
 
-mod clock;
+pub(super) mod clock;
 mod hold;
 
 use super::error::LogError;
 use super::gather::Track;
 use super::report::{Happening, Place, Report};
 use super::{Log, frame};
+use crate::model::configuration::bend_from_theta_l;
 use crate::model::joints::configuration_from_joints;
 use crate::model::orientation::from_euler;
 use crate::model::{Configuration, Vec3};
@@ -132,42 +133,87 @@ pub fn assemble(log: &Log, scenario: &Scenario, setup: &Setup) -> Result<Assembl
     let known = (source != Commands::Estimated).then_some(&commanded as &dyn Fn(f64) -> Option<Configuration>);
     let (readings, fit) = frame::placed(log, &plan, &setup.frame, known, start)?;
     report.notes.extend(fit.map(|fit| format!("the log's frame is {}", fit.told())));
-    let held = |median: Option<f64>| setup.hold.unwrap_or_else(|| LEAST_HOLD.max(SPACINGS * median.unwrap_or(0.0)));
-    let mut reading = Held::new(&readings, held(clock::median(&readings.times)), scenario.loop_rate);
-    let mut order = Held::new(&ordered, held(clock::median(&ordered.times)), scenario.loop_rate);
-    let mut force = Held::new(&log.forces, held(clock::median(&log.forces.times)), scenario.loop_rate);
-    let mut entries: Vec<Entry> = Vec::with_capacity(ticks.len());
-    let mut plane = Configuration::new(0.0, scenario.motion.delta);
-    for at in ticks.instants() {
-        let time = if start == 0.0 { at } else { at - start };
-        let [x, y, z, azimuth, elevation, roll] = reading.at(at);
-        let reading = Reading { position: Vec3::new(x, y, z), angles: [azimuth, elevation, roll] };
-        let [bend, delta] = match source {
-            Commands::Log => order.at(at),
-            Commands::Motion => {
-                let (theta_l, _) = command(&scenario.motion, time);
-                [crate::model::configuration::bend_from_theta_l(theta_l), scenario.motion.delta]
-            }
-            Commands::Estimated => [measured_bend(&reading.angles, &plane), scenario.motion.delta],
-        };
-        if delta.to_bits() != plane.delta().to_bits() {
-            plane = Configuration::new(0.0, delta);
-        }
-        let theta_l_rate = if source == Commands::Motion { command(&scenario.motion, time).1 } else { f64::NAN };
-        let tau_lc = Vec3::from(force.at(at));
-        let configuration = plane.with_bend(bend);
-        entries.push(Entry { time, configuration, theta_l_rate, delta_rate: 0.0, reading, tau_lc });
-    }
-    if source != Commands::Motion {
-        difference(&mut entries);
-    }
-    reading.tell([Happening::HeldReading, Happening::GapInReadings], start, &mut report);
-    force.tell([Happening::HeldForce, Happening::GapInForces], start, &mut report);
-    if source == Commands::Log {
-        order.tell([Happening::HeldCommand, Happening::GapInCommands], start, &mut report);
-    }
+    let motion = |time: f64| {
+        let (theta_l, rate) = command(&scenario.motion, time);
+        ([bend_from_theta_l(theta_l), scenario.motion.delta], [rate, 0.0])
+    };
+    let orders = match source {
+        Commands::Log => Orders::Log(&ordered, scenario.motion.delta),
+        Commands::Motion => Orders::Motion(&motion),
+        Commands::Estimated => Orders::Measured(scenario.motion.delta),
+    };
+    let clock = OnClock { ticks: &ticks, start, loop_rate: scenario.loop_rate, hold: setup.hold };
+    let entries = clock.entries((&readings, &log.forces), &orders, &mut report);
     let recording = Recording { entries, truth: None, commanded: source != Commands::Estimated };
     Ok(Assembled { plan, recording, report, rate: setup.rate, commands: source, start: log.origin + start, fit })
+}
+
+/// What the robot is told at each instant.
+pub(super) enum Orders<'a> {
+    /// The log's commands: bend and δ, rad. Before the first one, δ (rad) is as given.
+    Log(&'a Track<2>, f64),
+    /// Bend and δ (rad), θ̇L and δ̇ (rad/s) at a time (s) on the scenario's clock.
+    Motion(&'a dyn Fn(f64) -> ([f64; 2], [f64; 2])),
+    /// The bend that the tracker measures in the plane δ (rad).
+    Measured(f64),
+}
+
+/// The clock of the loop, under what a log holds.
+pub(super) struct OnClock<'a> {
+    pub ticks: &'a Ticks<'a>,
+    /// Where the scenario's clock begins on the log's, s.
+    pub start: f64,
+    /// Hz.
+    pub loop_rate: f64,
+    /// The longest that a value is held, s, where that is said.
+    pub hold: Option<f64>,
+}
+
+impl OnClock<'_> {
+    fn held<'t, const D: usize>(&self, track: &'t Track<D>) -> Held<'t, D> {
+        let usual = || LEAST_HOLD.max(SPACINGS * clock::median(&track.times).unwrap_or(0.0));
+        Held::new(track, self.hold.unwrap_or_else(usual), self.loop_rate)
+    }
+
+    /// What the loop saw at each of its instants: readings in {B} and load cells as held, commands as ordered.
+    pub fn entries(
+        &self,
+        (readings, forces): (&Track<6>, &Track<3>),
+        orders: &Orders,
+        report: &mut Report,
+    ) -> Vec<Entry> {
+        let none = Track::default();
+        let (ordered, delta) = match orders {
+            Orders::Log(ordered, delta) => (*ordered, *delta),
+            Orders::Motion(motion) => (&none, motion(0.0).0[1]),
+            Orders::Measured(delta) => (&none, *delta),
+        };
+        let (mut reading, mut order, mut force) = (self.held(readings), self.held(ordered), self.held(forces));
+        let mut entries: Vec<Entry> = Vec::with_capacity(self.ticks.len());
+        let mut plane = Configuration::new(0.0, delta);
+        for at in self.ticks.instants() {
+            let time = if self.start == 0.0 { at } else { at - self.start };
+            let [x, y, z, azimuth, elevation, roll] = reading.at(at);
+            let reading = Reading { position: Vec3::new(x, y, z), angles: [azimuth, elevation, roll] };
+            let ([bend, delta], [theta_l_rate, delta_rate]) = match orders {
+                Orders::Log(..) => (order.at(at), [f64::NAN, 0.0]),
+                Orders::Motion(motion) => motion(time),
+                Orders::Measured(delta) => ([measured_bend(&reading.angles, &plane), *delta], [f64::NAN, 0.0]),
+            };
+            if delta.to_bits() != plane.delta().to_bits() {
+                plane = Configuration::new(0.0, delta);
+            }
+            let (configuration, tau_lc) = (plane.with_bend(bend), Vec3::from(force.at(at)));
+            entries.push(Entry { time, configuration, theta_l_rate, delta_rate, reading, tau_lc });
+        }
+        if !matches!(orders, Orders::Motion(_)) {
+            difference(&mut entries);
+        }
+        reading.tell([Happening::HeldReading, Happening::GapInReadings], self.start, report);
+        force.tell([Happening::HeldForce, Happening::GapInForces], self.start, report);
+        order.tell([Happening::HeldCommand, Happening::GapInCommands], self.start, report);
+        entries
+    }
 }
 
 /// A scenario at the rate of a log's loop.
@@ -197,7 +243,7 @@ fn source(log: &Log, asked: Option<Commands>) -> Result<Commands, LogError> {
 }
 
 /// The log's commands as bend and δ (rad), each checked against the model.
-fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogError> {
+pub(super) fn ordered(log: &Log, plan: &Plan, report: &mut Report) -> Result<Track<2>, LogError> {
     let segment = plan.segment();
     let delta = plan.scenario().motion.delta;
     let radius = segment.pitch_radius;

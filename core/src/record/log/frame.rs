@@ -6,7 +6,7 @@ use super::Log;
 use super::error::LogError;
 use super::gather::Track;
 use crate::model::orientation::{from_euler, to_euler, vee};
-use crate::model::{Configuration, Mat3, Vec3};
+use crate::model::{Configuration, Mat3, Pose, Vec3};
 use crate::scenario::Plan;
 use crate::scenario::text::number;
 use crate::sensors::tracker::{tip_from_marker, unwrapped};
@@ -111,16 +111,42 @@ pub(super) fn placed(
     commanded: Option<&dyn Fn(f64) -> Option<Configuration>>,
     start: f64,
 ) -> Result<(Track<6>, Option<Fit>), LogError> {
+    let (scenario, segment) = (plan.scenario(), plan.segment());
+    let marker = tip_from_marker(scenario.tracker.mounting, scenario.motion.delta);
+    let model = |at: f64| commanded.and_then(|of| of(at)).map(|at| segment.arc(at).pose(segment.length));
+    let tracker = Tracker { log, marker, model: commanded.map(|_| &model as &dyn Fn(f64) -> Option<Pose>) };
+    let mut all = all_placed(&[tracker], setting, (segment.length, scenario.detection.armed_from), start)?;
+    Ok(all.pop().unwrap_or_default())
+}
+
+/// A tracker, and what is known of its disk.
+pub(super) struct Tracker<'a> {
+    /// What it read.
+    pub log: &'a Log,
+    /// How it is mounted: `disk_from_marker`.
+    pub marker: Mat3,
+    /// Where the model has its disk at a time (s) on the log's clock; none where nothing is known of the commands.
+    pub model: Option<&'a dyn Fn(f64) -> Option<Pose>>,
+}
+
+/// The same of several trackers in one frame, on a robot of a length (m) that nothing touches before `armed_from` (s).
+pub(super) fn all_placed(
+    trackers: &[Tracker],
+    setting: &Setting,
+    (length, armed_from): (f64, f64),
+    start: f64,
+) -> Result<Vec<(Track<6>, Option<Fit>)>, LogError> {
+    let logs = trackers.iter().map(|tracker| &tracker.log.readings);
     match setting {
-        Setting::Base => Ok((log.readings.clone(), None)),
-        Setting::Given(frame) => Ok((moved(&log.readings, frame, &Mat3::identity()), None)),
+        Setting::Base => Ok(logs.map(|readings| (readings.clone(), None)).collect()),
+        Setting::Given(frame) => Ok(logs.map(|readings| (moved(readings, frame, &Mat3::identity()), None)).collect()),
         Setting::Fitted => {
-            let commanded = commanded.ok_or_else(|| {
+            let pairs = trackers.iter().map(|tracker| pairs(tracker, armed_from + start, start));
+            let pairs = pairs.collect::<Option<Vec<_>>>().ok_or_else(|| {
                 LogError::file("the frame cannot be fitted without commands").or(": give them with --commands")
             })?;
-            let pairs = pairs(log, plan, commanded, start);
-            let (fit, marker) = fit(&pairs, plan.segment().length, plan.scenario().detection.armed_from)?;
-            Ok((moved(&log.readings, &fit.frame, &marker), Some(fit)))
+            let fits = fit(&pairs, length, armed_from)?;
+            Ok(logs.zip(fits).map(|(log, (fit, marker))| (moved(log, &fit.frame, &marker), Some(fit))).collect())
         }
     }
 }
@@ -151,12 +177,10 @@ struct Pair {
     model_rotation: Mat3,
 }
 
-fn pairs(log: &Log, plan: &Plan, commanded: &dyn Fn(f64) -> Option<Configuration>, start: f64) -> Vec<Pair> {
-    let scenario = plan.scenario();
-    let segment = plan.segment();
-    let marker = tip_from_marker(scenario.tracker.mounting, scenario.motion.delta);
+fn pairs(tracker: &Tracker, until: f64, start: f64) -> Option<Vec<Pair>> {
+    let Tracker { log, marker, model } = tracker;
+    let model = (*model)?;
     let oriented = log.has_orientation();
-    let until = scenario.detection.armed_from + start;
     let readings = log.readings.times.iter().zip(&log.readings.values).take_while(|(time, _)| **time < until);
     let mut before = [f64::NAN; 3];
     let pair = |(time, value): (&f64, &[f64; 6])| {
@@ -166,7 +190,7 @@ fn pairs(log: &Log, plan: &Plan, commanded: &dyn Fn(f64) -> Option<Configuration
             return None;
         }
         let [x, y, z, angles @ ..] = value;
-        let tip = segment.arc(commanded(*time)?).pose(segment.length);
+        let tip = model(*time)?;
         Some(Pair {
             time: time - start,
             position: Vec3::new(*x, *y, *z),
@@ -175,76 +199,98 @@ fn pairs(log: &Log, plan: &Plan, commanded: &dyn Fn(f64) -> Option<Configuration
             model_rotation: tip.rotation * marker,
         })
     };
-    readings.filter_map(pair).collect()
+    Some(readings.filter_map(pair).collect())
 }
 
-/// The frame, and the turn of the marker that is applied on the right.
-fn fit(pairs: &[Pair], length: f64, armed_from: f64) -> Result<(Fit, Mat3), LogError> {
+/// Sums over the readings of a tracker in which both rotations are linear: one pass is enough for all steps.
+struct Turns([[Mat3; 3]; 3]);
+
+impl Turns {
+    fn of(pairs: &[Pair]) -> Self {
+        let mut sums = [[Mat3::zeros(); 3]; 3];
+        for (measured, model) in pairs.iter().filter_map(|pair| Some((pair.rotation?, pair.model_rotation))) {
+            for (i, row) in sums.iter_mut().enumerate() {
+                for (j, sum) in row.iter_mut().enumerate() {
+                    *sum += measured.row(j).transpose() * model.row(i);
+                }
+            }
+        }
+        Self(sums)
+    }
+
+    fn rotations(&self, marker: &Mat3) -> Mat3 {
+        Mat3::from_fn(|i, j| self.0[i][j].dot(marker))
+    }
+
+    fn marker(&self, rotation: &Mat3) -> Mat3 {
+        best(&(0..9).map(|k| self.0[k / 3][k % 3] * rotation[(k / 3, k % 3)]).sum()).0
+    }
+}
+
+/// The frame, and for each tracker the turn of its marker that is applied on the right.
+fn fit(trackers: &[Vec<Pair>], length: f64, armed_from: f64) -> Result<Vec<(Fit, Mat3)>, LogError> {
     let few = |what: &str| {
         LogError::file(format!(
             "the frame cannot be fitted: before detection.armed_from = {} s, while nothing touches, {what}",
             number(armed_from)
         ))
     };
-    let Some(last) = pairs.last().filter(|_| pairs.len() >= 3) else {
+    let all = || trackers.iter().flatten();
+    if all().count() < 3 {
         return Err(few("there are fewer than three readings with a command"));
-    };
-    let share = 1.0 / pairs.len() as f64;
-    let centre = pairs.iter().map(|pair| pair.position).sum::<Vec3>() * share;
-    let model_centre = pairs.iter().map(|pair| pair.model_position).sum::<Vec3>() * share;
+    }
+    let share = 1.0 / all().count() as f64;
+    let centre = all().map(|pair| pair.position).sum::<Vec3>() * share;
+    let model_centre = all().map(|pair| pair.model_position).sum::<Vec3>() * share;
     // Positions count in lengths of the robot, as a turn of 1 rad does.
     let scale = 1.0 / (length * length);
-    let positions: Mat3 = pairs
-        .iter()
-        .map(|pair| (pair.model_position - model_centre) * (pair.position - centre).transpose() * scale)
-        .sum();
-    // Both sums over the pairs below are linear in the other rotation: one pass is enough for all steps.
-    let mut sums = [[Mat3::zeros(); 3]; 3];
-    for (measured, model) in pairs.iter().filter_map(|pair| Some((pair.rotation?, pair.model_rotation))) {
-        for (i, row) in sums.iter_mut().enumerate() {
-            for (j, sum) in row.iter_mut().enumerate() {
-                *sum += measured.row(j).transpose() * model.row(i);
-            }
-        }
-    }
-    let rotations = |marker: &Mat3| Mat3::from_fn(|i, j| sums[i][j].dot(marker));
-    let markers = |rotation: &Mat3| -> Mat3 { (0..9).map(|k| sums[k / 3][k % 3] * rotation[(k / 3, k % 3)]).sum() };
+    let positions: Mat3 =
+        all().map(|pair| (pair.model_position - model_centre) * (pair.position - centre).transpose() * scale).sum();
+    let turns: Vec<Turns> = trackers.iter().map(|pairs| Turns::of(pairs)).collect();
+    let rotations =
+        |markers: &[Mat3]| -> Mat3 { turns.iter().zip(markers).map(|(turns, marker)| turns.rotations(marker)).sum() };
+    let mut markers = vec![Mat3::identity(); trackers.len()];
     let (from_positions, certain) = best(&positions);
-    let (mut rotation, gap) = best(&(positions + rotations(&Mat3::identity())));
+    let (mut rotation, gap) = best(&(positions + rotations(&markers)));
     if gap < DETERMINED {
         return Err(few("the marker does not move enough"));
     }
-    let mut marker = Mat3::identity();
-    let mut turned = false;
-    let rest = orientation_rms(pairs, &rotation, &marker);
-    // Positions alone tell when the marker sits as the scenario has it.
-    if rest.is_some_and(|rms| rms > MOUNTED) && certain > DETERMINED {
-        turned = true;
+    let off = |pairs: &Vec<Pair>| orientation_rms(pairs, &rotation, &Mat3::identity()).is_some_and(|rms| rms > MOUNTED);
+    // Positions alone tell when a marker sits as the scenario has it.
+    let turned = trackers.iter().any(off) && certain > DETERMINED;
+    if turned {
         rotation = from_positions;
         for _ in 0..TURNS {
-            marker = best(&markers(&rotation)).0;
-            let before = std::mem::replace(&mut rotation, best(&(positions + rotations(&marker))).0);
+            markers = turns.iter().map(|turns| turns.marker(&rotation)).collect();
+            let before = std::mem::replace(&mut rotation, best(&(positions + rotations(&markers))).0);
             if (rotation - before).norm() < SETTLED {
                 break;
             }
         }
     }
     let shift = model_centre - rotation * centre;
+    let frame = Frame { position: shift.into(), angles: to_euler(&rotation) };
     let off = |pair: &Pair| (rotation * pair.position + shift - pair.model_position).norm_squared();
-    let fit = Fit {
-        frame: Frame { position: shift.into(), angles: to_euler(&rotation) },
-        marker: turned.then(|| to_euler(&marker)),
-        readings: pairs.len(),
-        until: last.time,
-        position_rms: sqrt(pairs.iter().map(off).sum::<f64>() * share),
-        orientation_rms: orientation_rms(pairs, &rotation, &marker),
-    };
-    Ok((fit, marker))
+    let each = trackers.iter().zip(markers).map(|(pairs, marker)| {
+        let fit = Fit {
+            frame,
+            marker: turned.then(|| to_euler(&marker)),
+            readings: pairs.len(),
+            until: pairs.last().map_or(0.0, |last| last.time),
+            position_rms: sqrt(pairs.iter().map(off).sum::<f64>() * (1.0 / pairs.len().max(1) as f64)),
+            orientation_rms: orientation_rms(pairs, &rotation, &marker),
+        };
+        (fit, marker)
+    });
+    Ok(each.collect())
 }
 
 /// Root mean square of the angles between the marker and where the model has it, rad.
 fn orientation_rms(pairs: &[Pair], rotation: &Mat3, marker: &Mat3) -> Option<f64> {
     let mut sum = 0.0;
+    if pairs.is_empty() {
+        return None;
+    }
     for pair in pairs {
         let rest = (rotation * pair.rotation? * marker).transpose() * pair.model_rotation;
         let angle = atan2(vee(&rest).norm(), 0.5 * (rest.trace() - 1.0));

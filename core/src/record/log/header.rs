@@ -69,6 +69,24 @@ roles! {
     Quality, "quality", None, ["valid", "tracked", "visible", "status"], "What the tracker thinks of its reading.";
 }
 
+impl Role {
+    /// Where a tracker is.
+    pub const POSITION: [Self; 3] = [Self::X, Self::Y, Self::Z];
+    /// How it is turned: Euler angles, a quaternion or a rotation vector.
+    pub const ORIENTATION: [Self; 10] = [
+        Self::Azimuth,
+        Self::Elevation,
+        Self::Roll,
+        Self::Qx,
+        Self::Qy,
+        Self::Qz,
+        Self::Qw,
+        Self::Rx,
+        Self::Ry,
+        Self::Rz,
+    ];
+}
+
 /// An alias as long as this counts at the end of a name, too.
 const LONG: usize = 5;
 
@@ -199,7 +217,7 @@ fn known_unit(role: Role, name: &str) -> Option<&'static str> {
 }
 
 /// A header's name and unit: `x [mm]` and `x (mm)`.
-fn with_unit(header: &str) -> (&str, Option<&str>) {
+pub(super) fn with_unit(header: &str) -> (&str, Option<&str>) {
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, unit)) = header.strip_suffix(close).and_then(|rest| rest.rsplit_once(open)) {
             return (name.trim(), Some(unit.trim()));
@@ -227,6 +245,19 @@ fn guessed(name: &str) -> Option<Role> {
     Role::ALL.iter().copied().find(is)
 }
 
+/// A name that ends in a unit of what it looks like: `pos_x_mm`.
+fn with_suffix(name: &str) -> Option<(Role, &str)> {
+    let (rest, unit) = name.rsplit_once('_').filter(|(_, unit)| !unit.is_empty())?;
+    let role = guessed(rest).filter(|role| known_unit(*role, unit).is_some())?;
+    guessed(name).is_none().then_some((role, unit))
+}
+
+/// What a name without a unit behind it is, or looks like.
+pub(super) fn looks_like(name: &str) -> Option<Role> {
+    let named = Role::ALL.iter().copied().find(|role| role.key() == name);
+    named.or_else(|| guessed(name)).or_else(|| with_suffix(name).map(|(role, _)| role))
+}
+
 /// What each column of a header in line `line` is.
 ///
 /// # Errors
@@ -246,11 +277,8 @@ pub fn columns(headers: &[String], line: u64, mappings: &[Mapping]) -> Result<Ve
         } else if let Some(role) = Role::ALL.iter().copied().find(|role| role.key() == name) {
             (Some(role), Origin::Named, unit)
         } else {
-            let suffix = name.rsplit_once('_').filter(|(rest, unit)| {
-                guessed(rest).is_some_and(|role| !unit.is_empty() && known_unit(role, unit).is_some())
-            });
-            match (unit, suffix) {
-                (None, Some((rest, unit))) if guessed(name).is_none() => (guessed(rest), Origin::Guessed, Some(unit)),
+            match (unit, with_suffix(name)) {
+                (None, Some((role, unit))) => (Some(role), Origin::Guessed, Some(unit)),
                 _ => (guessed(name), Origin::Guessed, unit),
             }
         };

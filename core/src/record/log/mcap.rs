@@ -46,6 +46,8 @@ pub struct McapReader {
     wanted: Vec<String>,
     /// Whether those may be of another file.
     partly: bool,
+    /// Whose joints are read, of how many segments.
+    segment: Option<(usize, usize)>,
     /// Whether one of those tells where the marker is: then no other pose is read.
     pose_chosen: bool,
     messages: u64,
@@ -83,6 +85,7 @@ impl McapReader {
             known: BTreeMap::new(),
             wanted: options.topics.clone(),
             partly: options.partly,
+            segment: options.segment,
             pose_chosen: false,
             messages: 0,
             origin: None,
@@ -230,7 +233,13 @@ impl McapReader {
             }
             Content::Wrench(force) => log.forces(time, number, force),
             Content::Joints(names, positions, efforts) => {
-                return joints(log, time, number, &names, &positions, &efforts).map_err(refuse);
+                let names = match self.segment {
+                    Some((segment, of)) => super::chain::joints_of(names, segment, of),
+                    None => names,
+                };
+                let read = joints(log, time, number, &names, &positions, &efforts);
+                // Of several segments, a message may tell of others alone.
+                return if self.segment.is_some() { Ok(()) } else { read.map_err(refuse) };
             }
         }
         Ok(())
@@ -361,7 +370,7 @@ fn joints(
     let three = [find("q1"), find("q2"), find("q3")];
     let three = match three {
         [Some(a), Some(b), Some(c)] => Some([a, b, c]),
-        _ if names.len() == 3 && bend.is_none() => Some([0, 1, 2]),
+        _ if names.len() == 3 && bend.is_none() && !names.iter().any(String::is_empty) => Some([0, 1, 2]),
         _ => None,
     };
     if let Some(bend) = bend {

@@ -36,7 +36,8 @@ impl Request {
     /// To read a file in a way.
     #[must_use]
     pub fn new(id: u32, file: u32, name: &str, options: &Options) -> Self {
-        let Options { format, mappings, min_quality, tool, frame_rate, topics, partly: _ } = options;
+        let Options { format, mappings, min_quality, tool, frame_rate, topics, partly: _, columns: _, segment: _ } =
+            options;
         Self {
             id,
             file,
@@ -59,6 +60,8 @@ impl Request {
             frame_rate: self.frame_rate,
             topics: self.topics.clone(),
             partly: false,
+            columns: None,
+            segment: None,
         })
     }
 }

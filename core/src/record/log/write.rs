@@ -2,6 +2,7 @@
 
 use crate::model::orientation::quaternion_from_euler;
 use crate::record::Entry;
+use crate::record::chain::ChainRecording;
 use std::fmt::Write;
 
 type Value = fn(&Entry) -> f64;
@@ -39,6 +40,53 @@ pub fn csv_row(text: &mut String, entry: &Entry) {
         if !value.is_nan() {
             // Writing to a string does not fail.
             let _ = write!(text, "{value}");
+        }
+    }
+    text.push('\n');
+}
+
+/// The columns of a CSV log of several segments that are those of one of them, each with its number in it.
+const CHAIN: [&str; 9] = [
+    "x [m]",
+    "y [m]",
+    "z [m]",
+    "azimuth [rad]",
+    "elevation [rad]",
+    "roll [rad]",
+    "theta_l [rad]",
+    "bend [rad]",
+    "delta [rad]",
+];
+/// How many of these are readings.
+const READ: usize = 6;
+
+/// The header of a CSV log of several segments, with its line end. Disks without a tracker have no columns of readings.
+#[must_use]
+pub fn chain_csv_header(recording: &ChainRecording) -> String {
+    let mut text = String::from("time [s]");
+    for (k, readings) in recording.readings.iter().enumerate() {
+        let skipped = if readings.is_some() { 0 } else { READ };
+        for column in &CHAIN[skipped..] {
+            // Writing to a string does not fail.
+            let _ = write!(text, ",{}", column.replacen(' ', &format!("_{} ", k + 1), 1));
+        }
+    }
+    text + "\n"
+}
+
+/// Appends the row of instant `at` of such a log: numbers that are read back to the last bit; what is not defined stays empty.
+pub fn chain_csv_row(text: &mut String, recording: &ChainRecording, at: usize) {
+    let _ = write!(text, "{}", recording.times[at]);
+    for (told, readings) in recording.told.iter().zip(&recording.readings) {
+        let configuration = told[at].configuration;
+        let orders = [configuration.theta_l(), configuration.bend(), configuration.delta()];
+        let read = readings.as_ref().map(|readings| readings[at]);
+        let read = read.iter().flat_map(|reading| reading.position.iter().copied().chain(reading.angles));
+        for value in read.chain(orders) {
+            text.push(',');
+            if !value.is_nan() {
+                let _ = write!(text, "{value}");
+            }
         }
     }
     text.push('\n');

@@ -3,7 +3,7 @@
 use crate::model::chain::Torsion;
 use crate::model::chain::path::Stands;
 use crate::scenario::motion::from_rest_to_rest;
-use crate::scenario::{Motion, Plan, Scenario, motion};
+use crate::scenario::{Motion, Plan, Scenario, ScenarioError, motion};
 
 /// An experiment with segments in series. What is said of the tracker, filters, detection and calibration holds for every segment.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,6 +120,18 @@ impl ChainScenario {
     #[must_use]
     pub fn without_contacts(&self) -> Self {
         Self { contacts: Vec::new(), ..self.clone() }
+    }
+
+    /// The same with a loop of this rate, Hz.
+    ///
+    /// # Errors
+    /// When it is not allowed.
+    pub fn at_rate(&self, loop_rate: f64) -> Result<Self, ScenarioError> {
+        let mut rated = self.clone();
+        for segment in &mut rated.segments {
+            segment.alone = Plan::new(&Scenario { loop_rate, ..segment.alone.scenario().clone() })?;
+        }
+        Ok(rated)
     }
 
     /// The same with another seed.

@@ -56,7 +56,7 @@ impl ChainScenario {
         Self::read(&Group::top(text, &table, spans.as_ref().map(|spans| spans.get_ref())), &table)
     }
 
-    fn read(top: &Group, table: &Table) -> Result<Self, ChainError> {
+    pub(super) fn read(top: &Group, table: &Table) -> Result<Self, ChainError> {
         if let Some(alone) = ALONE.iter().find(|key| table.contains_key(**key)) {
             return Err(top.refuse(alone, Quantity::Word, Value::Other("…".into()), Allowed::Need(INSTEAD)));
         }
@@ -89,7 +89,7 @@ impl ChainScenario {
 }
 
 /// Puts one value in the place of another: `key=value`, the value TOML or a bare word.
-fn replace(table: &mut Table, text: &str) -> Result<(), ScenarioError> {
+pub(super) fn replace(table: &mut Table, text: &str) -> Result<(), ScenarioError> {
     let none = || ScenarioError::Override { text: text.into() };
     let (path, value) = text.split_once('=').ok_or_else(none)?;
     let (path, value) = (path.trim(), value.trim());
@@ -109,7 +109,7 @@ fn replace(table: &mut Table, text: &str) -> Result<(), ScenarioError> {
 }
 
 /// The table under a key, or the one of a list that a number from 1 in brackets tells.
-fn inner<'t>(table: &'t mut Table, part: &str) -> Option<&'t mut Table> {
+pub(super) fn inner<'t>(table: &'t mut Table, part: &str) -> Option<&'t mut Table> {
     let Some((key, number)) = part.strip_suffix(']').and_then(|part| part.split_once('[')) else {
         return table.entry(part).or_insert_with(|| Toml::Table(Table::new())).as_table_mut();
     };
@@ -326,7 +326,7 @@ impl Group<'_> {
             ScenarioError::Value(refused) => match renamed(&refused.key) {
                 Some(key) if key != "end" => {
                     let Refused { quantity, value, allowed, .. } = *refused;
-                    self.refuse(&key, quantity, value, allowed)
+                    self.refuse(&key, quantity, value, allowed.within("robot."))
                 }
                 Some(key) => whole(ScenarioError::Value(Box::new(Refused { key, ..*refused }))),
                 None => whole(ScenarioError::Value(refused)),

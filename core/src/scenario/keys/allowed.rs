@@ -35,6 +35,16 @@ impl Limit {
         }
     }
 
+    /// The same with the other key's name within a group.
+    fn within(self, group: &str) -> Self {
+        let own = |path: &'static str| path.strip_prefix(group).unwrap_or(path);
+        match self {
+            Self::Key(path, value) => Self::Key(own(path), value),
+            Self::BeyondKey(path, value) => Self::BeyondKey(own(path), value),
+            plain => plain,
+        }
+    }
+
     /// The number, and whether it is itself allowed.
     fn number(self) -> (Option<f64>, bool) {
         match self {
@@ -126,6 +136,17 @@ impl Allowed {
             Self::Disk(_) => Self::Disk(Some(scenario.robot.disks.len() as u64)),
             Self::RunEnd(_) => Self::RunEnd(Some(scenario.loop_rate)),
             Self::FilterLength(_) => Self::FilterLength(Some(steps(scenario) as u64 + 1)),
+            general => general,
+        }
+    }
+
+    /// The same with names of keys as they are within a group of a scenario, such as `robot.`, where it stands elsewhere.
+    #[must_use]
+    pub fn within(self, group: &str) -> Self {
+        match self {
+            Self::Range(least, most) => Self::Range(least.within(group), most.within(group)),
+            Self::NextDisk { before, length } => Self::Range(Limit::Beyond(before), Limit::At(length)),
+            Self::Disks => Self::Need("a list of arc lengths in rising order, each above 0 and at most the length"),
             general => general,
         }
     }

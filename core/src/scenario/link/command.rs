@@ -1,8 +1,9 @@
 //! The same as a command line.
 
-use super::Link;
+use super::{ChainLink, Link, page};
 use crate::scenario::Method;
 use crate::scenario::keys::Value;
+use crate::scenario::preset::CHAIN_NAMES;
 use crate::scenario::text::number;
 
 impl Link {
@@ -24,11 +25,25 @@ impl Link {
         words
     }
 
+    /// The command that runs several segments.
+    fn chain_words(&self) -> Vec<String> {
+        let opened = || ChainLink::of(CHAIN_NAMES[0]);
+        let Some(chain) = self.page.chain.clone().or_else(opened) else { return vec!["run".into()] };
+        let mut words = ["run", "--preset", chain.preset()].map(String::from).to_vec();
+        for (key, value) in chain.changes() {
+            words.extend(["--set".into(), format!("{key}={value}")]);
+        }
+        words
+    }
+
     /// The command that computes what the page shows: a run, or the figure, map, table or study on the stage. In the
     /// quotes of a shell where it needs them.
     #[must_use]
     pub fn command(&self) -> String {
         let view = self.page.view;
+        if view == page::CHAIN {
+            return command_line(&self.chain_words());
+        }
         let figure = view.strip_prefix("figure-");
         let mut words: Vec<String> = match (figure, view) {
             (Some(number), _) => vec!["figure".into(), number.into()],

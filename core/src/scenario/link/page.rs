@@ -1,15 +1,30 @@
 //! What a link says of the page beside the scenario: a short table of what one must know to see the same. Folded
 //! groups and the like are the reader's own and stay out; so is the theme, unless somebody has chosen one.
 
+use super::chain::ChainLink;
 use crate::scenario::keys::allowed::Limit;
 use crate::scenario::keys::{Allowed, Quantity, Value};
 use crate::scenario::plan::MAX_TIME;
+use crate::scenario::preset::CHAIN_NAMES;
 use crate::scenario::refusal::{Refused, ScenarioError};
 use crate::scenario::{Detectors, Method, Scenario};
 
 /// What can stand on the page's stage, by the name that a link has for it.
-pub const VIEWS: &[&str] =
-    &["robot", "figure-3", "figure-4", "figure-6", "figure-7", "figure-8", "table2", "map", "tuning", "detectors"];
+pub const VIEWS: &[&str] = &[
+    "robot",
+    "chain",
+    "figure-3",
+    "figure-4",
+    "figure-6",
+    "figure-7",
+    "figure-8",
+    "table2",
+    "map",
+    "tuning",
+    "detectors",
+];
+/// The view of several segments.
+pub const CHAIN: &str = "chain";
 /// How alarms are raised in the tuning view.
 pub const RULES: &[&str] = &["fcd", "jfd", "or", "and"];
 /// Slowest and fastest playback, seconds of the experiment per second.
@@ -17,7 +32,7 @@ pub const SPEEDS: (f64, f64) = (0.1, 4.0);
 /// The most repeats of a study.
 pub const MAX_REPEATS: u64 = 100_000;
 /// Steps of the page's tour.
-pub const TOUR_STEPS: u64 = 10;
+pub const TOUR_STEPS: u64 = 13;
 /// The page's challenges.
 pub const CHALLENGES: &[&str] = &["disk-1", "half", "blind", "clamp", "disk-3", "best"];
 /// The page's themes: as the system says, or one of its own.
@@ -49,6 +64,8 @@ pub struct Page {
     pub challenge: Option<&'static str>,
     /// The theme, one of [`THEMES`]; none leaves it to who looks.
     pub theme: Option<&'static str>,
+    /// The experiment with several segments; none for the one in which that view opens.
+    pub chain: Option<ChainLink>,
 }
 
 impl Default for Page {
@@ -65,6 +82,7 @@ impl Default for Page {
             tour: None,
             challenge: None,
             theme: None,
+            chain: None,
         }
     }
 }
@@ -187,6 +205,14 @@ pub const PAGE_KEYS: &[PageKey] = &[
         get: |page| page.theme.map(Value::Word),
         set: |page, value| word(value, |word| page.theme = Some(word)),
     },
+    PageKey {
+        name: CHAIN,
+        quantity: Quantity::Word,
+        allowed: Allowed::Words(CHAIN_NAMES),
+        sentence: "The preset with several segments; keys behind chain. change it, as in chain.segment.2.motion.theta_end=0.9.",
+        get: |page| page.chain.as_ref().map(|chain| Value::Word(chain.preset())),
+        set: |page, value| word(value, |word| page.chain = ChainLink::of(word)),
+    },
 ];
 
 fn word(value: &Value, set: impl FnOnce(&'static str)) {
@@ -217,14 +243,25 @@ impl Page {
         })
     }
 
+    /// When the run that is shown ends, s: that of a scenario, or of several segments. With the key that says so.
+    #[must_use]
+    pub fn end(&self, scenario: &Scenario) -> (&'static str, f64) {
+        match self.chain.as_ref().filter(|_| self.view == CHAIN).and_then(ChainLink::end) {
+            Some(end) => ("end", end),
+            None => ("motion.end", scenario.motion.end),
+        }
+    }
+
     /// Checks that the cursor stands inside a scenario's run.
     ///
     /// # Errors
     /// When it does not.
     pub fn within(&self, scenario: &Scenario) -> Result<(), ScenarioError> {
-        let end = Limit::Key("motion.end", Some(scenario.motion.end));
+        let (key, end) = self.end(scenario);
+        let limit = end;
+        let end = Limit::Key(key, Some(end));
         match self.time {
-            Some(time) if time > scenario.motion.end => {
+            Some(time) if time > limit => {
                 Err(Refused::error("t", Quantity::Time, Value::Number(time), Allowed::Range(Limit::At(0.0), end)))
             }
             _ => Ok(()),

@@ -13,6 +13,24 @@ pub fn decoded(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
+/// A text with everything in `%2C`'s way that does not stand for itself in every address.
+pub fn encoded(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for byte in text.bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' | b',' | b'=' => {
+                out.push(byte.into());
+            }
+            other => out.extend(['%', char::from(hex(other >> 4)), char::from(hex(other & 15))]),
+        }
+    }
+    out
+}
+
+fn hex(digit: u8) -> u8 {
+    if digit < 10 { b'0' + digit } else { b'A' + digit - 10 }
+}
+
 fn digit(byte: u8) -> Option<u8> {
     match byte {
         b'0'..=b'9' => Some(byte - b'0'),
@@ -24,7 +42,16 @@ fn digit(byte: u8) -> Option<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::decoded;
+    use super::{decoded, encoded};
+
+    #[test]
+    fn what_is_encoded_is_read_back() {
+        for text in ["[{kind=\"clamp\",at=0.015}]", "a&b#c %", "ε_τ+1", ""] {
+            let written = encoded(text);
+            assert!(!written.contains(['&', '#', ' ', '"', '+']), "{written}");
+            assert_eq!(decoded(&written).as_deref(), Some(text));
+        }
+    }
 
     #[test]
     fn what_is_encoded_is_read_and_what_is_broken_is_not() {

@@ -1,12 +1,14 @@
 //! Reading a link: whatever it holds there is a scenario that can be run, and nothing that was wrong goes untold.
 
+use super::chain::{BEFORE, ChainLink, path};
+use super::page::CHAIN;
 use super::percent::decoded;
 use super::{Link, MAX_LINK, PAGE_KEYS, Page, VERSION, differences, is_address};
 use crate::scenario::keys::{self, Allowed, GROUPS, Key, Quantity, Value};
-use crate::scenario::preset::{self, PRESETS, Preset};
+use crate::scenario::preset::{self, CHAIN_NAMES, PRESETS, Preset};
 use crate::scenario::refusal::Refused;
 use crate::scenario::text::number;
-use crate::scenario::{Plan, Scenario, ScenarioError};
+use crate::scenario::{ChainError, Plan, Scenario, ScenarioError};
 use std::fmt;
 use thiserror::Error;
 
@@ -49,6 +51,9 @@ pub enum Why {
     /// The key does not exist or cannot hold the value, or the value is impossible together with the others.
     #[error(transparent)]
     Refused(#[from] ScenarioError),
+    /// The same of an experiment with several segments.
+    #[error(transparent)]
+    Chain(ChainError),
 }
 
 /// The longest text of a link that a message repeats, characters.
@@ -139,6 +144,8 @@ struct Reader {
     preset: Option<&'static Preset>,
     seen: Vec<String>,
     given: Vec<Given>,
+    /// Keys of an experiment with several segments.
+    chain: Vec<(String, String)>,
     page: Page,
     faults: Vec<Fault>,
 }
@@ -185,6 +192,7 @@ impl Reader {
                     other => other,
                 })?)
             }
+            (name, _) if name.starts_with(BEFORE) => self.chain.push((path(&name[BEFORE.len()..]), text.into())),
             ("v", _) if text.parse() == Ok(VERSION) => {}
             ("v", _) => return Err(Why::Newer),
             _ if PAGE_KEYS.iter().any(|key| key.name == name) => self.page.enter(name, text)?,
@@ -206,9 +214,10 @@ impl Reader {
             let Given { key, text, .. } = given.remove(place);
             self.fault(key.path, &text, refused.into(), Some(key));
         };
+        self.finish_chain();
         if let Err(refused) = self.page.within(&scenario) {
             let time = self.page.time.map(number).unwrap_or_default();
-            self.page.time = Some(scenario.motion.end);
+            self.page.time = Some(self.page.end(&scenario).1);
             self.fault("t", &time, refused.into(), None);
         }
         let broken = self.faults.into_iter().map(|Fault(broken, key)| {
@@ -217,6 +226,23 @@ impl Reader {
         });
         let broken = broken.collect();
         (Link { preset, changes: differences(&base, &scenario), scenario, page: self.page }, broken)
+    }
+}
+
+impl Reader {
+    /// What was given of several segments. A link that says nothing of the view wants to show it.
+    fn finish_chain(&mut self) {
+        let given = std::mem::take(&mut self.chain);
+        if self.page.chain.is_none() && (!given.is_empty() || self.page.view == CHAIN) {
+            self.page.chain = ChainLink::of(CHAIN_NAMES[0]);
+        }
+        let Some(chain) = &mut self.page.chain else { return };
+        for (key, value, why) in chain.take(given) {
+            self.fault(&key, &value, why, None);
+        }
+        if !self.seen.iter().any(|seen| seen == "view") {
+            self.page.view = CHAIN;
+        }
     }
 }
 

@@ -19,8 +19,9 @@ pub const TEXT: f32 = 12.5;
 /// Size of tick labels.
 pub const SMALL: f32 = 10.5;
 const TITLE: f32 = 22.0;
-/// Room at the left and at the right of the data.
+/// Room at the left of the data.
 pub const GUTTER: f32 = 38.0;
+/// Room at the right of the data.
 pub const RIGHT: f32 = 8.0;
 
 /// Where a plot is, and its axes.
@@ -131,51 +132,58 @@ fn stroke_line(painter: &Painter, line: Vec<Pos2>, (color, weight): (Color32, f3
     }
 }
 
-impl View<'_> {
-    /// Lets the pointer scrub; call before what lies on top.
-    pub fn scrub(&mut self, ui: &mut Ui, label: &str) {
-        let sense = Sense::CLICK | Sense::DRAG;
-        let response = ui.interact(self.frame.data, ui.scope_id().with(("plot", self.which)), sense);
-        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Figure, ui.is_enabled(), label));
-        if self.measure(ui, &response) {
-            return;
-        }
-        let time = |pos: Pos2| self.frame.time.value(pos.x);
+/// What a pointer over a plot asks for.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Pointed {
+    /// The time under it, s.
+    pub hover: Option<f64>,
+    /// Where playback is to stand, s.
+    pub seek: Option<f64>,
+}
+
+impl Frame {
+    /// Senses a pointer that may scrub, as `response` of the data's place says; a finger that moves up or down scrolls instead.
+    pub fn point(&self, ui: &Ui, response: &egui::Response, touch: &mut Touch) -> Pointed {
+        let time = |pos: Pos2| self.time.value(pos.x);
+        let mut pointed = Pointed::default();
         if let Some(pos) = response.hover_pos().filter(|_| !response.dragged()) {
-            self.state.hover = Some(time(pos));
+            pointed.hover = Some(time(pos));
             ui.set_cursor_icon(CursorIcon::Crosshair);
         }
         let touching = ui.input(|input| input.any_touches());
         if response.drag_started() {
-            self.state.touch = if touching { Touch::Undecided } else { Touch::Scrubs };
+            *touch = if touching { Touch::Undecided } else { Touch::Scrubs };
         }
-        if touching && response.dragged() && self.state.touch == Touch::Undecided {
+        if touching && response.dragged() && *touch == Touch::Undecided {
             let moved = response.total_drag_delta().unwrap_or_default();
             if moved.length() > 4.0 {
-                self.state.touch = if moved.y.abs() > moved.x.abs() { Touch::Scrolls } else { Touch::Scrubs };
+                *touch = if moved.y.abs() > moved.x.abs() { Touch::Scrolls } else { Touch::Scrubs };
             }
         }
-        if response.dragged() && self.state.touch == Touch::Scrolls {
+        if response.dragged() && *touch == Touch::Scrolls {
             ui.scroll_with_delta(vec2(0.0, response.drag_delta().y));
             finger::pass(ui);
-            return;
+            return pointed;
         }
         let pressed = !touching && response.is_pointer_button_down_on();
-        let scrubbed = response.dragged_by(PointerButton::Primary) && self.state.touch == Touch::Scrubs;
-        if (pressed || scrubbed || response.clicked())
-            && let Some(pos) = response.interact_pointer_pos()
-        {
-            let to = time(pos);
-            if to != self.cursor {
-                self.out.push(Command::Seek(to));
-            }
+        let scrubbed = response.dragged_by(PointerButton::Primary) && *touch == Touch::Scrubs;
+        if pressed || scrubbed || response.clicked() {
+            pointed.seek = response.interact_pointer_pos().map(time);
         }
+        pointed
     }
 
-    /// The playback position, with a dot on each line that has a value there.
-    pub fn cursor(&self, painter: &Painter, dots: &[(f64, Color32)]) {
-        let Frame { data, theme, values, .. } = &self.frame;
-        let x = painter.round_to_pixel_center(self.frame.time.at(self.cursor));
+    /// The place in which a pointer scrubs, with a name.
+    pub fn sense(&self, ui: &Ui, which: usize, label: &str) -> egui::Response {
+        let response = ui.interact(self.data, ui.scope_id().with(("plot", which)), Sense::CLICK | Sense::DRAG);
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Figure, ui.is_enabled(), label));
+        response
+    }
+
+    /// The playback position (s), with a dot on each line that has a value there.
+    pub fn cursor(&self, painter: &Painter, cursor: f64, dots: &[(f64, Color32)]) {
+        let Self { data, theme, values, .. } = self;
+        let x = painter.round_to_pixel_center(self.time.at(cursor));
         painter.vline(x, data.top()..=data.bottom() + 3.0, theme.line(1.5, theme.ink));
         let cap = [pos2(x - 4.5, data.top() - 5.0), pos2(x + 4.5, data.top() - 5.0), pos2(x, data.top() + 1.0)];
         painter.add(Shape::convex_polygon(cap.to_vec(), theme.ink, Stroke::NONE));
@@ -187,15 +195,38 @@ impl View<'_> {
         }
     }
 
+    /// A thin line at a time (s) under the pointer, with what there is to say of it.
+    pub fn hover(&self, painter: &Painter, time: f64, lines: impl IntoIterator<Item = LayoutJob>) {
+        let (data, theme) = (self.data, &self.theme);
+        let x = painter.round_to_pixel_center(self.time.at(time));
+        painter.vline(x, data.y_range(), theme.line(1.0, theme.dim.gamma_multiply(0.8)));
+        let mut text = vec![job(&Self::clock(time), SMALL + 1.0, theme.dim)];
+        text.extend(lines);
+        note(painter, theme, pos2(x, data.top() + 4.0), data, text);
+    }
+}
+
+impl View<'_> {
+    /// Lets the pointer scrub; call before what lies on top.
+    pub fn scrub(&mut self, ui: &mut Ui, label: &str) {
+        let response = self.frame.sense(ui, self.which, label);
+        if self.measure(ui, &response) {
+            return;
+        }
+        let Pointed { hover, seek } = self.frame.point(ui, &response, &mut self.state.touch);
+        self.state.hover = hover.or(self.state.hover);
+        self.out.extend(seek.filter(|to| *to != self.cursor).map(Command::Seek));
+    }
+
+    /// The playback position, with a dot on each line that has a value there.
+    pub fn cursor(&self, painter: &Painter, dots: &[(f64, Color32)]) {
+        self.frame.cursor(painter, self.cursor, dots);
+    }
+
     /// A thin line at the time under the pointer, in every plot, with this plot's values there.
     pub fn hover(&self, painter: &Painter, lines: impl Fn(&Sample) -> Vec<LayoutJob>) {
         let Some(time) = self.hovered.filter(|_| self.run.len() > 1) else { return };
-        let (data, theme) = (self.frame.data, &self.frame.theme);
         let sample = self.run.sample_at(time);
-        let x = painter.round_to_pixel_center(self.frame.time.at(sample.time));
-        painter.vline(x, data.y_range(), theme.line(1.0, theme.dim.gamma_multiply(0.8)));
-        let mut text = vec![job(&Frame::clock(sample.time), SMALL + 1.0, theme.dim)];
-        text.extend(lines(&sample));
-        note(painter, theme, pos2(x, data.top() + 4.0), data, text);
+        self.frame.hover(painter, sample.time, lines(&sample));
     }
 }

@@ -3,12 +3,13 @@
 use super::check::Verdict;
 use super::{CHALLENGES, Challenge};
 use crate::app::command::Command;
+use crate::app::controls::row::TARGET;
 use crate::app::fonts;
 use crate::app::layout;
 use crate::app::lesson::card::{self, FOOT, HEAD, Inputs, PAD, SIZE, Way, leave, set_text, written};
 use crate::app::lesson::{At, Wish};
 use crate::app::theme::Theme;
-use crate::app::widgets::{icon, symbol, text};
+use crate::app::widgets::{finger, icon, symbol, text};
 use crate::app::words::refusal;
 use egui::{Align2, CursorIcon, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind, Ui, WidgetInfo, pos2, vec2};
 
@@ -16,6 +17,8 @@ use egui::{Align2, CursorIcon, Rect, Role, ScrollArea, Sense, Stroke, StrokeKind
 const ITEM: f32 = 44.0;
 /// Height of what unfolds a hint, points.
 const FOLD: f32 = 34.0;
+/// Height of what shows the answer, with the space around it, points.
+const SHOW: f32 = 36.0;
 /// What is said where a browser keeps nothing.
 const UNKEPT: &str = "Progress is not kept here.";
 
@@ -30,8 +33,9 @@ pub fn height(ui: &Ui, width: f32, inputs: &Inputs<'_>) -> f32 {
     let high = |said: &str, width: f32| set_text(ui, said, width, SIZE, Theme::of(ui).ink).size().y;
     let goal = high(of.goal, inner - 20.0) + high(&measured(inputs), inner - 46.0) + 36.0;
     let (hint, answer) = inputs.lesson.unfolded;
-    let open = |open: bool, said: &str| FOLD + if open { high(said, inner - 8.0) + 6.0 } else { 0.0 };
-    let shown = open(hint, of.hint) + open(answer, of.answer) + if answer { 42.0 } else { 0.0 };
+    let [fold, show] = [FOLD, SHOW].map(|height: f32| if inputs.touch { height.max(TARGET) } else { height });
+    let open = |open: bool, said: &str| fold + if open { high(said, inner - 8.0) + 6.0 } else { 0.0 };
+    let shown = open(hint, of.hint) + open(answer, of.answer) + if answer { show + 6.0 } else { 0.0 };
     HEAD + 28.0 + high(of.text, inner) + 10.0 + goal + card::rows(inputs, of.controls) + shown + FOOT + 10.0
 }
 
@@ -131,7 +135,7 @@ fn one(ui: &mut Ui, rect: Rect, which: usize, inputs: &Inputs<'_>, out: &mut Vec
                 }
                 if answer {
                     told(ui, of.answer, ink);
-                    let (bar, _) = ui.allocate_exact_size(vec2(110.0, 36.0), Sense::hover());
+                    let (bar, _) = ui.allocate_exact_size(vec2(110.0, finger::at_least(ui, SHOW)), Sense::hover());
                     if crate::app::widgets::button::button(ui, bar.shrink2(vec2(0.0, 2.0)), "Show me", &theme) {
                         out.push(Command::Lesson(Wish::ShowAnswer));
                     }
@@ -179,7 +183,8 @@ fn goal(ui: &mut Ui, of: &Challenge, inputs: &Inputs<'_>, theme: &Theme) {
 }
 
 fn fold(ui: &mut Ui, name: &str, open: bool, theme: &Theme) -> bool {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), FOLD), Sense::click());
+    let size = vec2(ui.available_width(), finger::at_least(ui, FOLD));
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let response = response.on_hover_cursor(CursorIcon::PointingHand);
     response.widget_info(|| WidgetInfo::selected(Role::Button, true, open, name));
     let ink = if response.hovered() || response.has_focus() { theme.accent } else { theme.ink };

@@ -81,11 +81,16 @@ fn outline(frame: Frame, about: DVec2, angle: f64) -> Vec<Pos2> {
     corners.into_iter().flat_map(arc).map(|point| frame.at(about + turn.rotate(point - about))).collect()
 }
 
+/// What the plate is filled with.
+fn ground(theme: &Theme) -> Color32 {
+    theme.raised.lerp_to_gamma(theme.robot, if theme.dark { 0.18 } else { 0.06 })
+}
+
 /// The plate, where it is about to be, and how its points move.
 fn body(ui: &Ui, frame: Frame, plate: &Plate, theme: &Theme) {
     let painter = ui.painter();
     let motion = plate.motion();
-    let fill = theme.raised.lerp_to_gamma(theme.robot, 0.18);
+    let fill = ground(theme);
     painter.add(Shape::convex_polygon(outline(frame, DVec2::ZERO, 0.0), fill, Stroke::new(1.5, theme.robot)));
     if let Some(center) = motion.center {
         let ahead = Shape::closed_line(
@@ -282,4 +287,23 @@ fn caption(ui: &Ui, rect: Rect, plate: &Plate, theme: &Theme) {
     ui.painter().galley(at, galley, ink);
     let response = ui.interact(place, ui.scope_id().with("plate caption"), Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(Role::Label, true, &said));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Color;
+    use crate::scene::palette::Shade;
+
+    /// WCAG 2.2, 1.4.11: lines and marks, 3 to 1.
+    #[test]
+    fn arrows_and_perpendiculars_stand_out_from_the_plate() {
+        let scene = |c: Color32| Color::hex(u32::from(c.r()) << 16 | u32::from(c.g()) << 8 | u32::from(c.b()));
+        for theme in [Shade::Dark, Shade::Light, Shade::Projector].map(Theme::new) {
+            for line in [theme.model, theme.constrained, theme.dim, theme.sensor] {
+                let found = scene(line).contrast(scene(ground(&theme)));
+                assert!(found >= 3.0, "{line:?} in {:?}: {found}", theme.shade);
+            }
+        }
+    }
 }

@@ -2,32 +2,31 @@
 
 use egui::{Color32, Pos2, Rect, Ui, Vec2, pos2, vec2};
 
-use crate::app::charts::legend::{self, Entry, Form};
+use super::subject::Subject;
+use crate::app::charts::legend;
 use crate::app::fonts;
 use crate::app::lesson::captions::{self, Caption};
 use crate::app::theme::Theme;
 use crate::app::widgets::symbol;
 use crate::scene::{Camera, Label, Line, Pose, Scene, Solid, arc};
-use crate::show::obstacle::only_touches;
-use centrode_core::run::Run;
 
 /// Space between the legend and the view's edges, points; in a narrow view half of it.
 const MARGIN: f32 = 14.0;
 /// A view narrower than this has the legend in rows, points.
 const NARROW: f32 = 480.0;
 
-/// Writes legend, captions and labels of a run, with what is compared with it or without; `taken` is where other things stand.
+/// Writes legend, captions and labels of a run; `taken` is where other things stand.
 pub fn notes(
     ui: &Ui,
     rect: Rect,
     camera: &Camera,
-    run: (&Run, bool),
+    subject: &Subject<'_>,
     (scene, said): (&Scene, &[Caption]),
     mut taken: Vec<Rect>,
 ) {
     let theme = Theme::of(ui);
     let view = View { rect, camera };
-    taken.extend(name_all(ui, &view, &theme, run, scene));
+    taken.extend(name_all(ui, &view, &theme, subject, scene));
     // Labels first: they stand close to what they name, and a caption has room elsewhere.
     taken.extend(labels(ui, &view, &theme, scene, &taken));
     if !said.is_empty() {
@@ -53,41 +52,12 @@ impl View<'_> {
     }
 }
 
-/// What the legend names: all that the run will show, so that it does not move during playback.
-fn entries((run, frozen): (&Run, bool), theme: &Theme, narrow: bool) -> Vec<Entry> {
-    let entry = |form, color, text| Entry { form, color, text };
-    let mut entries =
-        vec![entry(Form::Triangle, theme.model, "c_m model"), entry(Form::Dot, theme.sensor, "c_s sensor")];
-    if run.contact_time().is_some() {
-        entries.insert(1, entry(Form::Circle, theme.constrained, "c_c constrained"));
-    }
-    if run.detection().is_some() {
-        entries.push(entry(Form::Diamond, theme.detection, "estimate, Eq. 24"));
-    }
-    entries.extend(legend::placed(run, theme));
-    entries.push(entry(Form::Axis, theme.dim, "screw axis"));
-    if run.contact_time().is_some() {
-        entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
-        if only_touches(run) {
-            entries.extend(frozen.then(|| entry(Form::Ghost, theme.constrained, "if clamped")));
-            entries.push(entry(Form::Arrow, theme.force, "contact force"));
-        }
-    }
-    if !narrow {
-        entries.insert(0, entry(Form::Solid, theme.robot, "robot"));
-        if run.plan.contact().is_some() {
-            entries.insert(1, entry(Form::Beam, theme.obstacle, "beam"));
-        }
-    }
-    entries
-}
-
 /// Paints the legend at the bottom left, unless the robot is there; gives its place.
-fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, run: (&Run, bool), scene: &Scene) -> Option<Rect> {
+fn name_all(ui: &Ui, view: &View<'_>, theme: &Theme, subject: &Subject<'_>, scene: &Scene) -> Option<Rect> {
     let painter = ui.painter_at(view.rect);
     let narrow = view.rect.width() < NARROW;
     let room = view.rect.shrink(if narrow { 0.5 * MARGIN } else { MARGIN });
-    let entries = entries(run, theme, narrow);
+    let entries = subject.entries(theme, narrow);
     // Beside the robot in a column; in a narrow view below it, in rows.
     let width = if narrow { room.width() } else { 0.0 };
     let size = legend::size(&painter, theme, width, &entries);

@@ -91,7 +91,14 @@ fn csv(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
     let text = lines.text(&first);
     let delimiter = Delimiter::of(text);
     let headers = headers(text, delimiter, first.number)?;
-    if headers.iter().all(|cell| is_number(cell.as_bytes())) {
+    let bare = headers.iter().all(|cell| is_number(cell.as_bytes()));
+    if let Some(columns) = options.columns.clone() {
+        if bare {
+            lines.back(&first);
+        }
+        return Ok(Head { delimiter, columns, line: first.number, groups: None });
+    }
+    if bare {
         // Rows without a header: a person says which column is what by its number.
         let named = |place: usize| if options.mappings.is_empty() { None } else { Some(format!("#{}", place + 1)) };
         let names: Option<Vec<String>> = (0..headers.len()).map(named).collect();

@@ -50,6 +50,21 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     names.iter().any(|name| begins(name)) && has("q0") && has("qx") && has("tx")
 }
 
+/// The tools of a file by its first row: the cells with which each one's group begins.
+///
+/// # Errors
+/// When it has no header, or the row cannot be divided.
+pub fn tools(bytes: &[u8]) -> Result<Vec<String>, LogError> {
+    /// A header and a row are shorter.
+    const LONGEST: usize = 1 << 20;
+    let mut lines = Lines::new(bytes[..bytes.len().min(LONGEST)].to_vec())?;
+    let head = head(&mut lines, &Options { tool: Some("1".into()), ..Options::default() })?;
+    let (Some(groups), Some(first)) = (head.groups, lines.next_row()) else { return Ok(Vec::new()) };
+    let mut cells = Cells::new(head.delimiter);
+    cells.divide(lines.text(&first), first.number)?;
+    Ok(groups.names(&cells, first.number)?.iter().map(|told| told.join(" ")).collect())
+}
+
 /// Reads the header, and which tool it is.
 pub(super) fn head(lines: &mut Lines, options: &Options) -> Result<Head, LogError> {
     // The header may begin with a #.
@@ -104,15 +119,15 @@ pub(super) fn head(lines: &mut Lines, options: &Options) -> Result<Head, LogErro
     if let Some(first) = lines.next_row() {
         let mut cells = Cells::new(delimiter);
         cells.divide(lines.text(&first), first.number)?;
-        groups.tool = groups.choose(&mut cells, options.tool.as_deref(), first.number)?;
+        groups.tool = groups.choose(&cells, options.tool.as_deref(), first.number)?;
         lines.back(&first);
     }
     Ok(Head { delimiter, columns, line: line.number, groups: Some(groups) })
 }
 
 impl Groups {
-    /// Which tool is meant; without a name, the only one.
-    fn choose(&self, cells: &mut Cells, wanted: Option<&str>, line: u64) -> Result<usize, LogError> {
+    /// What names each tool of a row: the cells with which its group begins.
+    fn names(&self, cells: &Cells, line: u64) -> Result<Vec<Vec<String>>, LogError> {
         let mut names = Vec::new();
         let mut at = self.start;
         while at + self.width <= cells.count() {
@@ -123,6 +138,12 @@ impl Groups {
             names.push(told);
             at = self.after(cells, at, line)?;
         }
+        Ok(names)
+    }
+
+    /// Which tool is meant; without a name, the only one.
+    fn choose(&self, cells: &Cells, wanted: Option<&str>, line: u64) -> Result<usize, LogError> {
+        let names = self.names(cells, line)?;
         let listed = || {
             let tools = names.iter().enumerate().map(|(place, told)| format!("{} ({})", place + 1, told.join(" ")));
             tools.collect::<Vec<_>>().join(", ")

@@ -1,9 +1,13 @@
-//! `centrode run` of an experiment with several segments.
+//! `centrode run` and `centrode analyze` of an experiment with several segments.
 
-use crate::cli::output::{Failure, NewFile, finish_csv, json, write_record};
+mod log;
+
+use super::draw::{self, Format};
+use super::output::{Failure, NewFile, finish_csv, json, write_record};
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
+use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::chain::{ChainReport, ChainRun, ContactTold, EstimateTold, EventTold};
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,13 +18,31 @@ pub(super) struct Asked<'a> {
     pub after: Vec<f64>,
     pub json: bool,
     pub csv: Option<&'a Path>,
+    pub figure: Option<&'a Path>,
+}
+
+pub(super) use log::{Files, analyze, commands};
+
+/// Refuses a drawing of a log of several segments.
+pub(super) fn without_figure(figure: Option<&Path>) -> Result<(), Failure> {
+    match figure {
+        None => Ok(()),
+        Some(_) => Err(Failure::Input(
+            "--figure: not for a log of several segments, of which no drawing is made; --csv has what its detectors hold".into(),
+        )),
+    }
 }
 
 /// The longest run, in samples: it is kept whole.
 const MOST: usize = 200_000;
 
 /// Simulates and reports.
-pub(super) fn execute(scenario: &ChainScenario, asked: &Asked, out: &mut impl Write) -> Result<(), Failure> {
+pub(super) fn execute(
+    scenario: &ChainScenario,
+    asked: &Asked,
+    log_file: Option<&Path>,
+    out: &mut impl Write,
+) -> Result<(), Failure> {
     let detector = asked.detector.map(|name| detector(scenario, name)).transpose()?;
     let samples = scenario.common().motion.end * scenario.common().loop_rate;
     if samples > MOST as f64 {
@@ -28,15 +50,28 @@ pub(super) fn execute(scenario: &ChainScenario, asked: &Asked, out: &mut impl Wr
             "end: a run of {samples:.0} samples; with several segments a run is kept whole, and has {MOST} at most"
         )));
     }
+    let log_file = log_file.map(log::checked).transpose()?;
+    let format = asked.figure.map(|path| Format::of("--figure", path)).transpose()?;
     let csv = asked.csv.map(NewFile::create).transpose()?;
+    let figure = asked.figure.map(NewFile::create).transpose()?;
     let plan = ChainPlan::new(scenario)
         .map_err(|unsettled| Failure::Input(format!("as the experiment begins, there is {unsettled}")))?;
     let run = ChainRun::new(plan);
+    if let Some(path) = log_file {
+        log::write_log(path, &run.recording)?;
+    }
     if let Some(file) = csv {
         write_csv(file, &run)?;
     }
-    let report = run.report(detector, &asked.after);
-    if asked.json { json(out, &report) } else { Ok(table(out, &report)?) }
+    if let (Some(mut file), Some(format)) = (figure, format) {
+        draw::write(&mut file, &over_time(&run), format)?;
+        file.finish()?;
+    }
+    print(out, &run.report(detector, &asked.after), asked.json)
+}
+
+fn print(out: &mut impl Write, report: &ChainReport, as_json: bool) -> Result<(), Failure> {
+    if as_json { json(out, report) } else { Ok(table(out, report)?) }
 }
 
 /// A detector that judges.
@@ -100,6 +135,9 @@ fn write_csv(file: NewFile, run: &ChainRun) -> Result<(), Failure> {
 }
 
 fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
+    if let Some(about) = &report.log {
+        about.table(out)?;
+    }
     for contact in &report.contacts {
         let ContactTold { contact, segment, at, kind, time, largest_force, .. } = contact;
         write!(out, "contact {contact}   {kind} on segment {segment}, {:.2} mm from its base", at * 1e3)?;
@@ -112,7 +150,9 @@ fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
             None => writeln!(out)?,
         }
     }
-    if report.contacts.is_empty() {
+    if report.log.is_some() {
+        writeln!(out, "contact     not known: a log holds no truth")?;
+    } else if report.contacts.is_empty() {
         writeln!(out, "contact     none")?;
     }
     for event in &report.plant_events {

@@ -1,0 +1,215 @@
+//! Segments in series on the page, headless: choosing one, moving it, contacts that come and go, links and files.
+
+use crate::stages::show;
+use crate::support::{DESK, LOW, PHONE, Page, TABLET, app, click, finish, fits, page_of, slide, texts};
+use centrode::app::link::Effect;
+use centrode::app::stages::stage::Stage;
+use centrode_core::detect::chain::ChainMethod;
+use centrode_core::scenario::ChainPlan;
+use centrode_core::scenario::chain::{Stands, Tracked};
+use centrode_core::scenario::link::Link;
+use centrode_core::scenario::preset::{CHAINS, find_chain};
+use centrode_core::study::chain::ChainRun;
+use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
+
+/// High enough that no group of controls is scrolled out of sight.
+const TALL: egui::Vec2 = egui::vec2(1440.0, 2600.0);
+
+/// A page that shows a preset with several segments.
+fn chained(size: egui::Vec2, preset: &str) -> Page {
+    let mut page = page_of(size);
+    show(&mut page, "Segments");
+    let link = format!("view=chain&chain={preset}&t=8");
+    go(&mut page, &link);
+    finish(&mut page);
+    page
+}
+
+fn go(page: &mut Page, link: &str) {
+    page.state_mut().as_mut().expect("built").go(link);
+    page.run_steps(3);
+}
+
+/// What the page's text of several segments says.
+fn scenario(page: &Page) -> centrode_core::scenario::ChainScenario {
+    app(page).state().chain.draft.scenario().expect("it can be read")
+}
+
+fn run(preset: &str) -> ChainRun {
+    let scenario = find_chain(preset).expect("a preset").chain(&[]).expect("possible");
+    ChainRun::new(ChainPlan::new(&scenario).expect("a shape"))
+}
+
+#[test]
+fn every_preset_is_shown_on_every_size_of_page() {
+    for preset in CHAINS {
+        for size in [DESK, TABLET, PHONE, LOW] {
+            let page = chained(size, preset.name);
+            assert_eq!(app(&page).state().stage, Stage::Chain);
+            fits(&page, size, preset.name);
+            assert!(app(&page).notice().is_none(), "{}", preset.name);
+        }
+    }
+}
+
+#[test]
+fn the_page_tells_what_the_command_tells() {
+    for preset in ["two-contacts", "reopened", "buckling"] {
+        let page = chained(DESK, preset);
+        let run = run(preset);
+        let found = run.judged.contacts(run.judged.teller().expect("it judges"), &[0.5]);
+        for (number, contact) in found.iter().enumerate() {
+            let said = texts(&page, &format!("Contact {}: alarm at {:.3}\u{a0}s", number + 1, contact.alarm));
+            assert_eq!(said.len(), 1, "{preset}: {:?}", texts(&page, "Contact "));
+            if contact.alarm < 7.0
+                && let Some(estimate) = contact.estimates.first().filter(|one| one.nothing < 0.5)
+            {
+                assert!(said[0].contains(&format!("segment {}", estimate.segment + 1)), "{said:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_segment_is_chosen_and_its_motion_set() {
+    let mut page = chained(TALL, "three-segments");
+    let before = scenario(&page);
+    page.get_all_by_role_and_label(Role::RadioButton, "Segment 3").next().expect("a segment").click();
+    page.run_steps(2);
+    assert_eq!(app(&page).state().chain.segment, 2);
+    slide(&mut page, "θL at the end", 60.0);
+    slide(&mut page, "Direction δ at the end", 45.0);
+    let after = scenario(&page);
+    assert!((after.segments[2].motion().theta_end.to_degrees() - 60.0).abs() < 1e-9);
+    assert!((after.segments[2].delta_end.to_degrees() - 45.0).abs() < 1e-9);
+    assert_eq!(after.segments[..2], before.segments[..2], "the others stay");
+    // What is of all segments is set for all.
+    slide(&mut page, "Position noise", 0.2);
+    let noisy = scenario(&page);
+    assert!(noisy.segments.iter().all(|one| (one.alone.scenario().tracker.position_noise - 2e-4).abs() < 1e-12));
+    click(&mut page, "Reset all");
+    assert_eq!(scenario(&page), before);
+}
+
+#[test]
+fn contacts_are_added_moved_and_removed() {
+    let mut page = chained(TALL, "three-segments");
+    let before = scenario(&page).contacts.len();
+    click(&mut page, "Add a contact");
+    assert_eq!(scenario(&page).contacts.len(), before + 1);
+    assert_eq!(app(&page).state().chain.contact, before, "the new one is looked at");
+    slide(&mut page, "Place on the segment", 12.0);
+    slide(&mut page, "Stands from", 6.5);
+    slide(&mut page, "Tilt", 30.0);
+    let contact = scenario(&page).contacts[before].clone();
+    assert!((contact.at - 0.012).abs() < 1e-9);
+    let Stands::From { time, tilt } = contact.stands else { panic!("{contact:?}") };
+    assert!((time - 6.5).abs() < 1e-9 && (tilt.to_degrees() - 30.0).abs() < 1e-9);
+    click(&mut page, &format!("Remove contact {}", before + 1));
+    assert_eq!(scenario(&page).contacts.len(), before);
+    for left in (0..before).rev() {
+        click(&mut page, &format!("Remove contact {}", left + 1));
+    }
+    assert!(!texts(&page, "Nothing touches the robot.").is_empty());
+    finish(&mut page);
+    assert_eq!(scenario(&page).contacts, []);
+}
+
+#[test]
+fn a_clamp_under_moving_segments_is_refused_and_says_why() {
+    let mut page = chained(TALL, "three-segments");
+    let before = scenario(&page);
+    let moving = before.contacts[0].segment > 0;
+    assert!(moving, "the preset's contact is above segments that move");
+    click(&mut page, "Clamp");
+    assert_eq!(scenario(&page), before);
+    assert!(!texts(&page, "while the segments below it rest").is_empty());
+}
+
+#[test]
+fn nonsense_is_told_beside_its_field_and_changes_nothing() {
+    let mut page = chained(TALL, "two-contacts");
+    let before = scenario(&page);
+    for (field, text) in
+        [("Place on the segment value", "abc"), ("Stands from value", "-3"), ("Place on the segment value", "99 m")]
+    {
+        page.get_by_label(field).focus();
+        page.run_steps(1);
+        page.get_by_label(field).type_text(text);
+        page.run_steps(1);
+        page.key_press(egui::Key::Enter);
+        page.run_steps(2);
+        assert_eq!(scenario(&page), before, "{field}: {text}");
+        assert!(!texts(&page, "Nothing was changed").is_empty(), "{field}: {text}");
+    }
+}
+
+#[test]
+fn detectors_and_trackers_are_switched() {
+    let mut page = chained(TALL, "two-contacts");
+    click(&mut page, "Screw motion");
+    assert_eq!(scenario(&page).smd, None);
+    click(&mut page, "GLR");
+    let judged = centrode::app::chain::apply::judging(&scenario(&page));
+    assert!(judged.iter().any(|method| method.key() == "glr") && !judged.contains(&ChainMethod::Smd));
+    click(&mut page, "Last end disk");
+    assert_eq!(scenario(&page).tracked, Tracked::Tip);
+    finish(&mut page);
+}
+
+#[test]
+fn a_link_holds_all_that_is_set() {
+    let mut page = chained(TALL, "two-contacts");
+    slide(&mut page, "θL at the end", 50.0);
+    click(&mut page, "Add a contact");
+    let effects = page.state_mut().as_mut().expect("built").take_effects();
+    let fragment = effects
+        .into_iter()
+        .rev()
+        .find_map(|effect| match effect {
+            Effect::Address { fragment, .. } => Some(fragment),
+            _ => None,
+        })
+        .expect("the address is told");
+    let (link, broken) = Link::read(&fragment);
+    assert!(broken.is_empty(), "{broken:?}");
+    let mut other = page_of(DESK);
+    go(&mut other, &fragment);
+    assert_eq!(scenario(&other), scenario(&page));
+    assert!(link.command().starts_with("centrode run --preset two-contacts --set "), "{}", link.command());
+    // What is broken in a link is told, and what is left is shown.
+    go(&mut other, "chain=two-contacts&chain.segment[2].length=-1&chain.segment[1].motion.theta_end=1");
+    let notice = app(&other).notice().expect("it is told");
+    assert!(notice.details.contains("segment[2].length"), "{}", notice.details);
+    assert!((scenario(&other).segments[0].motion().theta_end - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_file_with_several_segments_opens_and_a_broken_one_is_told() {
+    let mut page = page_of(DESK);
+    let text = find_chain("oblique").expect("a preset").toml.as_bytes().to_vec();
+    page.state_mut().as_mut().expect("built").opened("mine.toml", Ok(text));
+    page.run_steps(3);
+    assert_eq!((app(&page).state().stage, app(&page).state().chain.preset.as_str()), (Stage::Chain, "oblique"));
+    let broken = b"[[segment]]\nlength = 0.03\n[[contact]]\nsegment = 7\nat = 0.01\ntime = 4\n".to_vec();
+    page.state_mut().as_mut().expect("built").opened("broken.toml", Ok(broken));
+    page.run_steps(3);
+    let notice = app(&page).notice().expect("it is told");
+    assert!(notice.details.contains("ine 4") && notice.details.contains("segment"), "{}", notice.details);
+    assert_eq!(app(&page).state().chain.preset, "oblique", "what was shown stays");
+}
+
+#[test]
+fn plots_show_all_segments_or_everything_of_one() {
+    let mut page = chained(DESK, "two-contacts");
+    let figures = |page: &Page| texts(page, "Plot of segment").len();
+    assert_eq!(figures(&page), 3);
+    page.get_by_role_and_label(Role::RadioButton, "Screw axis angle").click();
+    page.run_steps(2);
+    assert_eq!(texts(&page, "screw axis angle over time").len(), 3);
+    page.get_all_by_role_and_label(Role::RadioButton, "Segment 2").last().expect("a choice").click();
+    page.run_steps(2);
+    assert!(figures(&page) >= 4, "{:?}", texts(&page, "Plot of segment"));
+    assert!(texts(&page, "Plot of segment 3").is_empty());
+}
