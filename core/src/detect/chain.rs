@@ -82,7 +82,7 @@ impl ChainSettings {
             }
         }
         if scenario.smd.is_some() {
-            // The distance between the screw axes is that of their points nearest to the end disk: the centrodes.
+            // The distance between the screw axes is that of their points nearest to the disk below: the centrodes.
             segments.iter_mut().for_each(|settings| settings.thresholds.detectors.set(Method::FcdConsistent, true));
         }
         let torsions = scenario.segments.iter().map(|segment| segment.torsion).collect();

@@ -1,7 +1,7 @@
 //! Which segments carry contacts, where on the backbone, and since when.
 
 use super::course::KnownContact;
-use super::heard::{Each, Heard, Last};
+use super::heard::{Asked, Each, Heard, Last};
 use super::{ChainEvent, ChainJudged, ChainMethod};
 use crate::detect::calibration::jointly::Placed;
 use crate::detect::calibration::marginal::Place;
@@ -150,7 +150,11 @@ impl ChainJudged {
         let began = || {
             let heard = self.heard(alarm)?;
             let between = [heard.earliest(segment, heard.last())?, heard.last()];
-            heard.listen(known, between[0])?.asked(segment, between, 1, 1.0, 0.0).map(|placed| placed.estimate.began)
+            heard
+                .listen(known, between[0])?
+                .to(segment, between, 0.0)?
+                .told(1, 1.0, f64::NEG_INFINITY)
+                .map(|placed| placed.estimate.began)
         };
         began().map_or(alarm - before < SAME, |began| began <= before)
     }
@@ -181,23 +185,30 @@ impl ChainJudged {
         let between = [earliest.or_else(|| heard.earliest(contact.raised_by, latest))?, latest];
         let parts = self.settings.segments[0].placing.beginnings;
         let listening = heard.listen(&contact.before, between[0])?;
-        let asked = |segment: usize, doubt: f64, tilt: f64| listening.asked(segment, between, parts, doubt, tilt);
+        let told = |asked: &Option<Asked>, doubt: f64, rival: f64| asked.as_ref()?.told(parts, doubt, rival);
         let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);
-        let mut each: Vec<Option<Placed>> = (0..heard.segments()).map(|segment| asked(segment, 1.0, 0.0)).collect();
+        let evidence =
+            |each: &[Option<Placed>]| each.iter().flatten().map(|of| of.estimate.evidence).fold(0.0, f64::max);
+        let mut asked: Vec<_> = (0..heard.segments()).map(|segment| listening.to(segment, between, 0.0)).collect();
+        let mut each: Vec<Option<Placed>> = vec![None; asked.len()];
+        // The most distal one that deviates is likely the one: beside it others need no closer look.
+        let likely = contact.deviating.last().copied().unwrap_or(contact.raised_by);
+        for segment in std::iter::once(likely).chain((0..asked.len()).filter(|segment| *segment != likely)) {
+            each[segment] = told(&asked[segment], 1.0, evidence(&each));
+        }
         let best = each.iter().map(ratio).fold(f64::NEG_INFINITY, f64::max);
         for (segment, placed) in each.iter_mut().enumerate() {
             // Once more where planes stand askew.
             if let Some(tilt) = placed.as_ref().map(|placed| placed.tilt).filter(|tilt| tilt.abs() > ASKEW)
                 && ratio(placed) > best - UNLIKELY
             {
-                *placed = asked(segment, 1.0, tilt);
+                asked[segment] = listening.to(segment, between, tilt);
+                *placed = told(&asked[segment], 1.0, f64::NEG_INFINITY);
             }
         }
-        let best = each.iter().flatten().map(|placed| placed.estimate.evidence).fold(0.0, f64::max);
-        let doubt = listening.doubt(between[0], best);
+        let doubt = listening.doubt(between[0], evidence(&each));
         if doubt > 1.0 {
-            let tilt = |placed: &Option<Placed>| placed.as_ref().map_or(0.0, |placed| placed.tilt);
-            each = each.iter().enumerate().map(|(segment, placed)| asked(segment, doubt, tilt(placed))).collect();
+            each = asked.iter().map(|asked| told(asked, doubt, f64::NEG_INFINITY)).collect();
         }
         let ratios: Vec<f64> = each.iter().map(ratio).collect();
         let (probabilities, nothing) = shares(&ratios)?;

@@ -7,7 +7,7 @@ use super::whole::linear::Own;
 use super::whole::watch::{Watch, frame_turn};
 use crate::detect::calibration::course::{Moment, Planner};
 use crate::detect::calibration::ensemble::{Ensemble, Listens, Tracker, doubt};
-use crate::detect::calibration::jointly::{self, Placed, Question};
+use crate::detect::calibration::jointly::{self, Kept, Placed, Question};
 use crate::detect::calibration::marginal::{CLEAR, History};
 use crate::detect::calibration::watched::Watched;
 use crate::detect::calibration::{ACROSS, Command, STATES, STRETCH};
@@ -51,6 +51,15 @@ pub(super) struct Listening {
     course: Course,
     planes: Vec<Contact>,
     commands: Vec<Vec<Command>>,
+}
+
+/// What is asked for contacts on one segment.
+pub(super) struct Asked<'a> {
+    listening: &'a Listening,
+    segment: usize,
+    beginnings: Vec<usize>,
+    hypotheses: Hypotheses<'a>,
+    kept: Kept,
 }
 
 impl Heard<'_> {
@@ -210,24 +219,38 @@ impl Listening {
         }
     }
 
-    /// What all readings say of a contact on one segment that began between two readings, each `doubt` times less than it seems to; the
-    /// model is exact for planes of one tilt (rad), and otherwise interpolated.
-    pub fn asked(&self, segment: usize, between: [usize; 2], parts: u32, doubt: f64, tilt: f64) -> Option<Placed> {
-        let Self { ears, seen, calibrations, course, planes, commands } = self;
-        let beginnings = course.moving(between);
-        let hypotheses = Hypotheses::new(course, *seen, segment, between, planes, tilt)?;
+    /// To be asked for contacts on one segment that began between two readings. The model is exact for planes of one tilt (rad), and otherwise
+    /// interpolated.
+    pub fn to(&self, segment: usize, between: [usize; 2], tilt: f64) -> Option<Asked<'_>> {
+        let hypotheses = Hypotheses::new(&self.course, self.seen, segment, between, &self.planes, tilt)?;
+        Some(Asked {
+            listening: self,
+            segment,
+            beginnings: self.course.moving(between),
+            hypotheses,
+            kept: Kept::default(),
+        })
+    }
+}
+
+impl Asked<'_> {
+    /// What all readings say of them, each `doubt` times less than it seems to; `rival` is the largest logarithm of the likelihood ratio on another
+    /// segment.
+    pub fn told(&self, parts: u32, doubt: f64, rival: f64) -> Option<Placed> {
+        let Self { listening, segment, beginnings, hypotheses, kept } = self;
         let question = Question {
-            beginnings: &beginnings,
+            beginnings,
             parts,
             doubt,
-            segment,
-            length: course.length(segment),
-            commands: &commands[segment],
-            calibration: calibrations[segment],
+            rival,
+            segment: *segment,
+            length: listening.course.length(*segment),
+            commands: &listening.commands[*segment],
+            calibration: listening.calibrations[*segment],
         };
-        match ears {
-            Ears::Each(ensemble) => jointly::estimate(ensemble, &&hypotheses, &question),
-            Ears::Last(heard) => jointly::estimate(heard, &&hypotheses, &question),
+        match &listening.ears {
+            Ears::Each(ensemble) => jointly::estimate(ensemble, &hypotheses, kept, &question),
+            Ears::Last(heard) => jointly::estimate(heard, &hypotheses, kept, &question),
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::model::chain::Contact;
 use crate::model::{Configuration, Mat3, Pose};
 use libm::cos;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Beginnings, and times after each, at which shapes are solved.
 const BEGINNINGS: usize = 4;
@@ -51,9 +52,12 @@ pub(super) struct Met<'a> {
     planes: Vec<[Signature<WIDE>; TIMES]>,
 }
 
+static AT: LazyLock<[f64; TIMES]> =
+    LazyLock::new(|| std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * TIMES + 1) as f64))));
+
 /// Shares of the time from a beginning to the last reading: with the beginning, Chebyshev points of Radau's kind.
 fn times() -> [f64; TIMES] {
-    std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * TIMES + 1) as f64)))
+    *AT
 }
 
 /// Lagrange's polynomials of these nodes at a point; with one more at 0, which counts for nothing, where there is one.
@@ -159,7 +163,11 @@ impl jointly::Met for Met<'_> {
             return Signature::zeros();
         }
         let by_time = weights(&times(), share, true);
-        self.planes[tracker].iter().zip(by_time).fold(Signature::zeros(), |sum, (signature, by)| sum + signature * by)
+        let mut signature = Signature::<WIDE>::zeros();
+        for (at, by) in self.planes[tracker].iter().zip(by_time) {
+            signature.zip_apply(at, |sum, at| *sum += at * by);
+        }
+        signature
     }
 
     fn clamps(&self, tracker: usize, reading: usize) -> Signature<PLACES> {

@@ -59,7 +59,7 @@ pub enum Tracked {
 /// Thresholds of the screw motion deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smd {
-    /// Of the distance of the screw axes at the end disk, m.
+    /// Of the distance of the screw axes at the disk below, m.
     pub distance: f64,
     /// Of the angle between them, rad.
     pub angle: f64,
