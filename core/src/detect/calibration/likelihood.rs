@@ -148,11 +148,8 @@ impl Row {
     }
 
     fn at(&self, weights: &[f64; PLACES]) -> f64 {
-        let mut each = self.linear;
-        for (row, weight) in self.square.iter().zip(weights) {
-            each.iter_mut().zip(row).for_each(|(each, square)| *each -= 0.5 * weight * square);
-        }
-        each.iter().zip(weights).map(|(each, weight)| each * weight).sum()
+        let dot = |a: &[f64; PLACES]| a.iter().zip(weights).map(|(a, weight)| a * weight).sum::<f64>();
+        dot(&self.linear) - 0.5 * self.square.iter().zip(weights).map(|(row, weight)| weight * dot(row)).sum::<f64>()
     }
 
     /// The ratio (natural logarithm) at each place of a grid.
