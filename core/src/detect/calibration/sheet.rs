@@ -14,7 +14,7 @@ use std::cell::OnceCell;
 use std::f64::consts::PI;
 
 /// Tilts at which signatures are made.
-pub const TILTS: usize = 3;
+pub const TILTS: usize = 7;
 /// Signatures at all tilts and places: those of the first tilt first.
 pub const WIDE: usize = TILTS * PLACES;
 
@@ -226,10 +226,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_of_tilts_reproduce_what_turns_twice() {
+    fn weights_of_tilts_reproduce_what_turns_twice_and_four_times() {
         for tilt in [0.0, 0.3, 1.2, PI / 5.0, PI, -0.7] {
             let weights = tilted(0.2, tilt);
-            for (name, of) in [("1", 0.0), ("cos 2α", 2.0)] {
+            for (name, of) in [("1", 0.0), ("cos 2α", 2.0), ("cos 4α", 4.0)] {
                 let between: f64 = tilts(0.2).iter().zip(weights).map(|(at, by)| cos(of * at) * by).sum();
                 assert!((between - cos(of * tilt)).abs() < 1e-12, "{name} at {tilt}: {between}");
             }
