@@ -1,25 +1,83 @@
 //! How well contacts on three segments are told and placed: many runs of the preset `three-segments` with contacts around the middle of each
-//! segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md.
+//! segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md; `-- 200 tip` those of one case.
 
-#![allow(clippy::disallowed_methods, reason = "an example reads its arguments")]
+#![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "an example reads its arguments and its clock")]
 
 use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::noise::{Normal, Source};
+use centrode_core::scenario::chain::Stands;
 use centrode_core::scenario::preset::find_chain;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
 use centrode_core::study::chain::ChainRun;
 use rayon::prelude::*;
+use std::f64::consts::FRAC_PI_2;
+use std::time::{Duration, Instant};
 
 /// Times after the alarm, s.
 const AFTER: [f64; 3] = [0.1, 0.25, 0.5];
+/// When the contact begins, s.
+const CONTACT: f64 = 5.8;
+/// Probabilities between which runs are put together.
+const GROUPS: [f64; 6] = [0.0, 0.5, 0.7, 0.9, 0.99, 1.0 + 1e-9];
 
-/// What one run came to, by time after the alarm: whether the segment is right, how far the place is off (m), whether the interval holds it, and
-/// the probability that was given to the segment named.
+/// Runs of one kind.
+struct Case {
+    name: &'static str,
+    title: &'static str,
+    sets: &'static [&'static str],
+    /// Whether planes stand with any tilt, each as likely as the others.
+    tilted: bool,
+}
+
+const PLAY: &str = "calibration.play=0.005235987755982988";
+const TIP: &str = "tracker.disks=tip";
+const STILL: [&str; 4] = [
+    "segment[1].motion.theta_end=1.5707963267948966",
+    "segment[2].motion.theta_end=1.5707963267948966",
+    "segment[2].motion.delta_end=0",
+    "contact[1].kind=clamp",
+];
+
+const CASES: [Case; 7] = [
+    Case { name: "all", title: "all disks", sets: &[], tilted: false },
+    Case { name: "play", title: "all disks, 0.3° of play", sets: &[PLAY], tilted: false },
+    Case {
+        name: "errors",
+        title: "all disks, 2 % of length, 1° of frame, 2° of δ (drawn)",
+        sets: &[
+            "calibration.draw=drawn",
+            "calibration.length=0.02",
+            "calibration.frame_turn=[0.0174532925, 0.0174532925, 0.0174532925]",
+            "calibration.delta=0.034906585",
+        ],
+        tilted: false,
+    },
+    Case { name: "tilted", title: "all disks, planes of any tilt", sets: &[], tilted: true },
+    Case { name: "clamped", title: "all disks, clamps where what is below rests", sets: &STILL, tilted: false },
+    Case { name: "tip", title: "the tip alone", sets: &[TIP], tilted: false },
+    Case { name: "tip-play", title: "the tip alone, 0.3° of play", sets: &[TIP, PLAY], tilted: false },
+];
+
+/// What was told of a contact some time after its alarm.
+#[derive(Clone, Copy)]
+struct Told {
+    right: bool,
+    /// How far the place is off, m.
+    off: f64,
+    /// Whether the interval along the whole backbone holds the contact.
+    holds: bool,
+    /// The probability of the segment that was named.
+    said: f64,
+}
+
+/// What one run came to.
 struct Outcome {
     segment: usize,
+    /// Whether there was an alarm before the contact, or none.
     early: bool,
-    told: Vec<Option<(bool, f64, bool, f64)>>,
+    told: Vec<Option<Told>>,
+    spent: Duration,
 }
 
 fn scenario(sets: &[String]) -> Result<ChainScenario, String> {
@@ -27,26 +85,101 @@ fn scenario(sets: &[String]) -> Result<ChainScenario, String> {
     preset.chain(sets).map_err(|error| error.to_string())
 }
 
-fn outcome(seed: u64, sets: &[&str]) -> Result<Outcome, String> {
-    let segment = (seed % 3) as usize;
-    let at = 0.015 + 0.005 * Normal::new(seed, Source::Calibration).symmetric();
-    let mut all: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+fn outcome(seed: u64, case: &Case) -> Result<Outcome, String> {
+    let clamped = case.name == "clamped";
+    let segment = if clamped { 2 } else { (seed % 3) as usize };
+    let mut normal = Normal::new(seed, Source::Calibration);
+    let at = 0.015 + 0.005 * normal.symmetric();
+    let tilt = FRAC_PI_2 * normal.symmetric();
+    let mut all: Vec<String> = case.sets.iter().map(|set| (*set).to_owned()).collect();
     all.push(format!("contact[1].segment={}", segment + 1));
     let mut scenario = scenario(&all)?.with_seed(seed);
     scenario.contacts[0].at = at;
+    if let (true, Stands::From { time, .. }) = (case.tilted, scenario.contacts[0].stands) {
+        scenario.contacts[0].stands = Stands::From { time, tilt };
+    }
     let plan = ChainPlan::new(&scenario).map_err(|error| error.to_string())?;
     let run = ChainRun::new(plan);
+    let begun = Instant::now();
     let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &AFTER);
+    let spent = begun.elapsed();
     let first = found.first();
-    let early = first.is_none_or(|found| found.alarm < 5.8);
+    let early = first.is_none_or(|found| found.alarm < CONTACT);
+    let truth = at + scenario.segments[..segment].iter().map(|of| of.alone.scenario().robot.length).sum::<f64>();
     let told = AFTER.iter().map(|after| {
         let estimate = first?.estimates.iter().find(|estimate| estimate.after == *after)?;
-        let right = estimate.segment == segment;
-        let off = estimate.place.mean - at;
-        let holds = estimate.place.low <= at && at <= estimate.place.high;
-        Some((right, off, holds, estimate.probabilities[estimate.segment]))
+        Some(Told {
+            right: estimate.segment == segment,
+            off: estimate.place.mean - at,
+            holds: estimate.along.low <= truth && truth <= estimate.along.high,
+            said: estimate.probabilities[estimate.segment],
+        })
     });
-    Ok(Outcome { segment, early, told: told.collect() })
+    Ok(Outcome { segment, early, told: told.collect(), spent })
+}
+
+fn percent(part: usize, whole: usize) -> f64 {
+    100.0 * part as f64 / whole as f64
+}
+
+fn show(case: &Case, runs: u64) -> Result<(), String> {
+    let outcomes: Vec<Outcome> =
+        (1..=runs).into_par_iter().map(|seed| outcome(seed, case)).collect::<Result<_, _>>()?;
+    let heard: Vec<&Outcome> = outcomes.iter().filter(|outcome| !outcome.early).collect();
+    let each: f64 = heard.iter().map(|outcome| outcome.spent.as_secs_f64()).sum::<f64>() / (3 * heard.len()) as f64;
+    println!(
+        "{}: {runs} runs, {} with an alarm before the contact or none; {:.0} ms an estimate",
+        case.title,
+        outcomes.len() - heard.len(),
+        1e3 * each
+    );
+    for (k, after) in AFTER.iter().enumerate() {
+        let told: Vec<(usize, Told)> =
+            heard.iter().filter_map(|outcome| Some((outcome.segment, outcome.told[k]?))).collect();
+        let count = |of: fn(&Told) -> bool| told.iter().filter(|(_, told)| of(told)).count();
+        let said = told.iter().map(|(_, told)| told.said).sum::<f64>() / told.len() as f64;
+        println!(
+            "  +{after:.2} s: {} told, segment right {:.1} % (said {:.1} %), 95 % intervals hold {:.1} %",
+            told.len(),
+            percent(count(|told| told.right), told.len()),
+            100.0 * said,
+            percent(count(|told| told.holds), told.len()),
+        );
+        for segment in 0..3 {
+            let own: Vec<&Told> =
+                told.iter().filter(|(of, told)| *of == segment && told.right).map(|(_, told)| told).collect();
+            if own.is_empty() {
+                continue;
+            }
+            let rms = (own.iter().map(|told| told.off * told.off).sum::<f64>() / own.len() as f64).sqrt();
+            let held = percent(own.iter().filter(|told| told.holds).count(), own.len());
+            println!("    segment {}: {:.3} mm RMS, {held:.0} % held, of {}", segment + 1, rms * 1e3, own.len());
+        }
+        for pair in GROUPS.windows(2) {
+            let of: Vec<&Told> =
+                told.iter().map(|(_, told)| told).filter(|told| (pair[0]..pair[1]).contains(&told.said)).collect();
+            if of.is_empty() || of.len() == told.len() {
+                continue;
+            }
+            let said = of.iter().map(|told| told.said).sum::<f64>() / of.len() as f64;
+            let right = percent(of.iter().filter(|told| told.right).count(), of.len());
+            println!("    said {:.1} %: right {right:.1} %, of {}", 100.0 * said, of.len());
+        }
+    }
+    Ok(())
+}
+
+/// False alarms of robots that touch nothing.
+fn free(runs: u64, title: &str, sets: &[&str]) -> Result<(), String> {
+    let alarms = (1..=runs).into_par_iter().map(|seed| {
+        let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+        let scenario = scenario(&sets)?.without_contacts().with_seed(seed);
+        let run = ChainRun::new(ChainPlan::new(&scenario).map_err(|error| error.to_string())?);
+        Ok::<_, String>(run.judged.events.iter().any(|event| event.detector == ChainMethod::Of(Method::Cusum)))
+    });
+    let alarms: Vec<bool> = alarms.collect::<Result<_, _>>()?;
+    println!("free, {title}: {} of {runs} runs with a false alarm", alarms.iter().filter(|alarm| **alarm).count());
+    Ok(())
 }
 
 fn main() -> Result<(), String> {
@@ -54,64 +187,15 @@ fn main() -> Result<(), String> {
         None => 30,
         Some(count) => count.parse().map_err(|error| format!("how many runs: {error}"))?,
     };
-    let placed = std::env::args().nth(2).is_none_or(|what| what != "free");
-    for (name, sets) in
-        [("all disks", &[][..]), ("all disks, 0.3° of play", &["calibration.play=0.005235987755982988"][..])]
-            .into_iter()
-            .filter(|_| placed)
-    {
-        let outcomes: Vec<Outcome> =
-            (1..=runs).into_par_iter().map(|seed| outcome(seed, sets)).collect::<Result<_, _>>()?;
-        let early = outcomes.iter().filter(|outcome| outcome.early).count();
-        println!("{name}: {runs} runs, {early} with an alarm before the contact or none");
-        for (k, after) in AFTER.iter().enumerate() {
-            let told: Vec<_> =
-                outcomes.iter().filter(|outcome| !outcome.early).filter_map(|outcome| outcome.told[k]).collect();
-            let count = told.len() as f64;
-            let share = |of: fn(&(bool, f64, bool, f64)) -> bool| {
-                100.0 * told.iter().filter(|told| of(told)).count() as f64 / count
-            };
-            let mean = told.iter().map(|told| told.3).sum::<f64>() / count;
-            println!(
-                "  +{after:.2} s: {count} told, segment right {:.1} % (said {:.1} %), 95 % intervals hold {:.1} %",
-                share(|told| told.0),
-                100.0 * mean,
-                share(|told| told.0 && told.2)
-            );
-            for segment in 0..3 {
-                let squares: Vec<f64> = outcomes
-                    .iter()
-                    .filter(|outcome| outcome.segment == segment && !outcome.early)
-                    .filter_map(|outcome| outcome.told[k])
-                    .filter(|told| told.0)
-                    .map(|told| told.1 * told.1)
-                    .collect();
-                let held = outcomes
-                    .iter()
-                    .filter(|outcome| outcome.segment == segment && !outcome.early)
-                    .filter_map(|outcome| outcome.told[k])
-                    .filter(|told| told.0 && told.2);
-                let held = 100.0 * held.count() as f64 / squares.len() as f64;
-                let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
-                println!(
-                    "          segment {}: {:.3} mm RMS, {held:.0} % held, of {}",
-                    segment + 1,
-                    rms * 1e3,
-                    squares.len()
-                );
-            }
-        }
+    let asked = std::env::args().nth(2);
+    let wanted = |name: &str| asked.as_ref().is_none_or(|asked| asked == name);
+    for case in CASES.iter().filter(|case| wanted(case.name)) {
+        show(case, runs)?;
     }
-    let free: Vec<Option<usize>> = (1..=runs)
-        .into_par_iter()
-        .map(|seed| {
-            let scenario = scenario(&[])?.without_contacts().with_seed(seed);
-            let run = ChainRun::new(ChainPlan::new(&scenario).map_err(|error| error.to_string())?);
-            let alarm = run.judged.events.iter().find(|event| event.detector == ChainMethod::Of(Method::Cusum));
-            Ok::<_, String>(alarm.map(|event| event.segment + 1))
-        })
-        .collect::<Result<_, _>>()?;
-    let by: Vec<usize> = (1..=3).map(|segment| free.iter().filter(|alarm| **alarm == Some(segment)).count()).collect();
-    println!("free: {} of {runs} runs with a false alarm, by segment {by:?}", by.iter().sum::<usize>());
+    if wanted("free") {
+        free(runs, "all disks", &[])?;
+        free(runs, "the tip alone", &[TIP])?;
+        free(runs, "the tip alone, 0.3° of play", &[TIP, PLAY])?;
+    }
     Ok(())
 }

@@ -194,7 +194,7 @@ fn table(out: &mut impl Write, report: &ChainReport) -> io::Result<()> {
         if found.estimates.is_empty() {
             writeln!(
                 out,
-                "placed      not: that takes fcd or cusum, trackers on every end disk, and readings up to then of this contact alone"
+                "placed      not: that takes cusum, or fcd with trackers on every end disk, and readings from before the contact up to then of it alone"
             )?;
         }
     }

@@ -5,7 +5,7 @@ use centrode_core::detect::Method;
 use centrode_core::detect::chain::ChainMethod;
 use centrode_core::model::Vec3;
 use centrode_core::scenario::preset::{CHAINS, find_chain};
-use centrode_core::scenario::{ChainPlan, ChainScenario};
+use centrode_core::scenario::{ChainPlan, ChainScenario, Kind};
 use centrode_core::study::chain::ChainRun;
 use serde_json::Value;
 use std::fs;
@@ -143,12 +143,48 @@ fn a_bend_says_when_a_contact_stands() {
 }
 
 #[test]
-fn a_tracker_on_the_tip_alone_notices_by_screw_motion() {
-    let report = json(&["run", "--json", "--preset", "tip-only"]);
+fn a_tracker_on_the_tip_alone_notices_and_places() {
+    let report = json(&["run", "--json", "--preset", "tip-only", "--after", "0.5"]);
     let events = told(&report, "events");
-    assert!(events.iter().all(|event| event["detector"] == "smd" && event["segment"] == 3), "{report}");
-    let after = |event: &&Value| event["raised"].as_f64().expect("raised") >= 5.8;
-    assert!(events.iter().find(after).is_some_and(|event| event["cleared"].is_null()), "{report}");
+    assert!(events.iter().all(|event| event["segment"] == 3), "{report}");
+    for detector in ["cusum", "smd"] {
+        let after = |event: &&Value| event["detector"] == detector && event["raised"].as_f64().expect("raised") >= 5.8;
+        assert!(events.iter().find(after).is_some_and(|event| event["cleared"].is_null()), "{detector}: {report}");
+    }
+    let found = told(&report, "found");
+    assert_eq!(found.len(), 1, "{report}");
+    let estimate = &found[0]["estimates"][0];
+    assert_eq!(estimate["segment"], 2, "{estimate}");
+    assert!(estimate["probabilities"][1].as_f64().expect("probability") > 0.9, "{estimate}");
+    let [at, low, high] = ["at", "low", "high"].map(|key| estimate[key].as_f64().expect(key));
+    assert!((at - 0.015).abs() < 0.8e-3 && low < 0.015 && 0.015 < high, "{estimate}");
+}
+
+#[test]
+fn a_plane_askew_is_placed_with_its_tilt() {
+    let report = json(&["run", "--json", "--preset", "oblique", "--after", "0.5"]);
+    let estimate = &told(&report, "found")[0]["estimates"][0];
+    let [at, tilt, plane] = [&estimate["at"], &estimate["tilt"], &estimate["kinds"]["plane"]]
+        .map(|value| value.as_f64().expect("a number"));
+    assert!((at - 0.015).abs() < 0.5e-3, "{estimate}");
+    assert!((tilt.to_degrees() - 40.0).abs() < 4.0 && plane > 0.99, "{estimate}");
+}
+
+#[test]
+fn a_clamp_is_told_from_a_plane_where_what_is_below_rests() {
+    let still = [
+        "segment[1].motion.theta_end=1.5707963267948966",
+        "segment[2].motion.theta_end=1.5707963267948966",
+        "segment[2].motion.delta_end=0",
+        "contact[1].kind=clamp",
+    ];
+    let run = run("three-segments", &still, 1);
+    let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &[0.5]);
+    let estimate = &found[0].estimates[0];
+    let clamp = estimate.kinds.iter().find(|(kind, _)| *kind == Kind::Clamp).expect("thought of").1;
+    assert!(estimate.segment == 2 && clamp > 0.5, "{estimate:?}");
+    assert!(estimate.place.low < 0.015 && 0.015 < estimate.place.high, "{:?}", estimate.place);
+    assert!((estimate.place.mean - 0.015).abs() < 1e-3, "{:?}", estimate.place);
 }
 
 #[test]

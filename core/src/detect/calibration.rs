@@ -13,6 +13,7 @@
 pub mod bound;
 pub mod course;
 pub mod cusum;
+pub mod ensemble;
 pub mod filter;
 pub mod glr;
 pub mod jointly;
@@ -22,6 +23,7 @@ pub mod marginal;
 pub mod monitor;
 pub mod noise;
 pub mod release;
+pub mod sheet;
 pub mod signature;
 pub mod watched;
 
@@ -30,6 +32,16 @@ use nalgebra::{SMatrix, SVector};
 /// Errors of the calibration: translation (3) and rotation (3) of the tracker's frame, relative error of L, scale and offset of the
 /// bend, offset of δ, latency, and the drift of the tracker (3).
 pub const STATES: usize = 14;
+/// The relative error of L among them.
+pub const STRETCH: usize = 6;
+/// The relative error of the bend.
+pub const SCALE: usize = 7;
+/// The offset of the bend.
+pub const OFFSET: usize = 8;
+/// The offset of δ.
+pub const ACROSS: usize = 9;
+/// The latency.
+pub const LATE: usize = 10;
 /// Where the drift begins among them.
 pub const DRIFT: usize = 11;
 

@@ -3,12 +3,16 @@
 //! Segments beyond the last contact keep their relative pose and twist exactly, those below deflect as well, often more: so **the
 //! most distal segment that deviates carries the most distal contact**. That segment alone, seen from the end disk below it, is one segment on
 //! a base that stays: the detectors and estimators of one segment hold for it as they are. With a tracker on the last end disk
-//! alone, nothing is known of the segments by themselves; its motion is compared with that of the whole chain.
+//! alone, nothing is known of the segments by themselves: its motion is compared with that of the whole chain, whose calibration one filter
+//! estimates.
 
 mod contacts;
+mod course;
+mod heard;
 mod hypotheses;
 mod relative;
 mod tip;
+mod whole;
 
 use super::evidence::Judgement;
 use super::judge::{Judged, Settings, judge};
@@ -19,6 +23,8 @@ use crate::record::Recording;
 use crate::record::chain::ChainRecording;
 use crate::scenario::chain::{Smd, Tracked};
 use crate::scenario::{ChainScenario, Threshold};
+
+use whole::watch::Watch;
 
 pub use contacts::{Along, ChainContactFound, ChainEstimate};
 pub use relative::relative;
@@ -76,7 +82,7 @@ impl ChainSettings {
             }
         }
         if scenario.smd.is_some() {
-            // The distance between the screw axes is that of their points nearest to the end disk: the centrodes.
+            // The distance between the screw axes is that of their points nearest to the disk below: the centrodes.
             segments.iter_mut().for_each(|settings| settings.thresholds.detectors.set(Method::FcdConsistent, true));
         }
         let torsions = scenario.segments.iter().map(|segment| segment.torsion).collect();
@@ -112,6 +118,10 @@ pub struct ChainJudged {
     pub relative: Vec<Recording>,
     /// What is concluded from each of these.
     pub segments: Vec<Judged>,
+    /// With a tracker on the last end disk alone: what the calibration filter of the whole chain made of its readings.
+    whole: Option<Watch>,
+    /// The last instant of the recording, s.
+    end: f64,
     /// Events of all detectors on all end disks, in the order in which they were raised.
     pub events: Vec<ChainEvent>,
 }
@@ -134,11 +144,15 @@ pub fn judge_chain(recording: &ChainRecording, settings: &ChainSettings) -> Chai
             events.extend(screw_events(segment, judgements, &settings.segments[segment], smd));
         }
     }
+    let watches = settings.tracked == Tracked::Tip && settings.methods.contains(&Method::Cusum);
+    let whole = watches.then(|| Watch::new(recording, settings)).flatten();
     if settings.tracked == Tracked::Tip {
         events = tip::events(recording, settings);
+        events.extend(whole.iter().flat_map(|watch| tip::alarms(watch, recording, settings)));
     }
     events.sort_by(|a, b| a.raised.total_cmp(&b.raised));
-    ChainJudged { settings: settings.clone(), relative, segments, events }
+    let end = recording.times.last().copied().unwrap_or(0.0);
+    ChainJudged { settings: settings.clone(), relative, segments, whole, end, events }
 }
 
 /// The events of detectors that judge a segment by itself.

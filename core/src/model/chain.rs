@@ -14,6 +14,7 @@ pub mod elastic;
 pub mod free;
 mod gauss;
 pub mod joints;
+mod lightly;
 mod modes;
 mod newton;
 pub mod path;

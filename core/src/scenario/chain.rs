@@ -20,8 +20,9 @@ use std::fmt;
 use thiserror::Error;
 use toml::de::DeTable;
 
+pub use crate::model::chain::path::Stands;
 pub use draft::{ChainDraft, Change};
-pub use inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Stands, Tracked};
+pub use inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Tracked};
 pub use plan::ChainPlan;
 
 /// A chain with the configuration of each segment and what it meets: what follows can be solved or has no stable shape.

@@ -10,10 +10,11 @@ use crate::model::chain::Unsettled;
 use crate::model::chain::path::What;
 use crate::record::chain::ChainRecording;
 use crate::record::log::chain::ChainAssembled;
-use crate::scenario::ChainPlan;
 use crate::scenario::chain::Stands;
+use crate::scenario::{ChainPlan, Kind};
 use crate::study::about::ChainAbout;
 use serde::Serialize;
+use std::collections::BTreeMap;
 
 /// A run of several segments: its plan, what was recorded, and what is concluded from that.
 #[derive(Debug, Clone)]
@@ -201,6 +202,11 @@ pub struct EstimateTold {
     pub along_high: f64,
     /// When it began, s; null where the estimator does not say.
     pub began: Option<f64>,
+    /// Probability of each kind of contact that was thought of there: `plane`, `clamp`; empty where the estimator does not say.
+    pub kinds: BTreeMap<&'static str, f64>,
+    /// By how much the normal of a plane there is turned about the backbone's tangent from the bending plane, rad: the likeliest; null where the
+    /// estimator does not say.
+    pub tilt: Option<f64>,
 }
 
 fn happened(time: f64, what: What) -> PlantTold {
@@ -234,6 +240,8 @@ fn found_told(found: &ChainContactFound) -> FoundTold {
             along_low: low,
             along_high: high,
             began: estimate.began,
+            kinds: estimate.kinds.iter().map(|(kind, share)| (Kind::WORDS[*kind as usize], *share)).collect(),
+            tilt: estimate.tilt,
         }
     });
     FoundTold {

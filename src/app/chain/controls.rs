@@ -208,7 +208,7 @@ impl Panel<'_> {
         self.row(ui, &own::AT, self.contact, out);
         match contact.stands {
             Stands::Always { normal, .. } => {
-                let [x, y, z] = normal.map(|part| crate::app::charts::notation::number(part, 2));
+                let [x, y, z] = <[f64; 3]>::from(normal).map(|part| crate::app::charts::notation::number(part, 2));
                 self.said(ui, &format!("A plane that always stands there, its normal ({x}, {y}, {z})."));
                 self.row(ui, &own::OFFSET, self.contact, out);
             }

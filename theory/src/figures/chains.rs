@@ -130,8 +130,8 @@ pub fn places() -> Result<Chart> {
 pub fn buckles(rods: &[Rod], segment: usize) -> Result<Option<f64>> {
     let all = rods.len();
     let course = |time: f64| -> Vec<Bends> { vec![bends(Configuration::new(MOST * time, 0.0)); all] };
-    let stands = Stands::From { time: MET / MOST, delta: 0.0, tilt: 0.0 };
-    let plane = Plane { segment, at: 0.5 * rods[segment].length, stands };
+    let stands = Stands::From { time: MET / MOST, tilt: 0.0 };
+    let plane = Plane { segment, at: 0.5 * rods[segment].length, delta: 0.0, stands };
     let path = Path::new(rods, &course, &[0.0, 1.0], &[plane])?;
     let buckled = path.happened().iter().find(|event| event.what == What::Buckled);
     Ok(buckled.map(|event| MOST * event.time))

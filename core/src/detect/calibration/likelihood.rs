@@ -4,7 +4,7 @@
 //! then known at every place to the last digit.
 
 use super::Six;
-use super::filter::{Responses, Signature, SpatialResponses, Stage};
+use super::filter::{Responses, Stage};
 use super::signature::{PLACES, Shapes, free_weights, weights};
 
 /// Spacing of the posterior's grid, as a share of L: 0.1 mm on the paper's segment.
@@ -118,33 +118,21 @@ impl Row {
     }
 
     /// Nothing heard of contacts that began at a reading and some of the way to the next.
-    pub fn silent((whole, part): (usize, f64)) -> Self {
+    fn silent((whole, part): (usize, f64)) -> Self {
         Self { began: whole as f64 + part, linear: [0.0; PLACES], square: [[0.0; PLACES]; PLACES] }
     }
 
     /// As if everything heard told only this share of what it seems to.
-    pub fn told(mut self, share: f64) -> Self {
-        self.linear.iter_mut().for_each(|value| *value *= share);
-        self.square.as_flattened_mut().iter_mut().for_each(|value| *value *= share);
-        self
+    #[must_use]
+    pub fn told(&self, share: f64) -> Self {
+        let linear = self.linear.map(|value| value * share);
+        Self { began: self.began, linear, square: self.square.map(|row| row.map(|value| value * share)) }
     }
 
-    /// Adds what one tracker hears of them: `signature` is that of a reading after the beginning.
-    pub fn hear<'s>(
-        &mut self,
-        stage: impl Fn(usize) -> &'s Stage,
-        innovations: &[Six],
-        signature: impl Fn(usize) -> Signature<PLACES>,
-    ) {
-        let mut responses = SpatialResponses::default();
-        for (k, innovation) in innovations.iter().enumerate().skip(self.began as usize + 1) {
-            let seen = responses.step(stage(k), &signature(k));
-            let (linear, square) = (seen.tr_mul(innovation), seen.tr_mul(&seen));
-            for i in 0..PLACES {
-                self.linear[i] += linear[i];
-                (0..PLACES).for_each(|j| self.square[i][j] += square[(i, j)]);
-            }
-        }
+    /// Contacts of which signatures times innovations, and times each other, are known. `began` is in readings.
+    #[must_use]
+    pub fn heard(began: f64, linear: [f64; PLACES], square: [[f64; PLACES]; PLACES]) -> Self {
+        Self { began, linear, square }
     }
 
     #[inline]
@@ -188,6 +176,30 @@ impl Row {
     }
 }
 
+/// Contacts that began at one instant, whatever else is not known of them.
+pub trait Began {
+    /// When, in readings.
+    fn began(&self) -> f64;
+    /// The ratio (natural logarithm) at each place of a grid, of the likeliest of what else is not known.
+    fn ratios(&self, grid: &Grid) -> Vec<f64>;
+    /// The largest ratio at any place near those of a grid.
+    fn largest(&self, grid: &Grid) -> f64;
+}
+
+impl Began for Row {
+    fn began(&self) -> f64 {
+        self.began
+    }
+
+    fn ratios(&self, grid: &Grid) -> Vec<f64> {
+        self.along(grid).collect()
+    }
+
+    fn largest(&self, grid: &Grid) -> f64 {
+        self.most(grid)
+    }
+}
+
 /// Places that count for less than this, as a logarithm, need no fine sum.
 const SLIGHT: f64 = 8.0;
 /// A sum over beginnings is exact to 10⁻⁴ where the logarithm bends by no more than this from one to the next.
@@ -196,8 +208,8 @@ const SMOOTH: f64 = 2.0;
 /// Into how many parts the time from one reading to the next must be divided for a sum over beginnings to be as good as an integral.
 /// `None` where these rows, of one reading after the other, do not tell. `best` is the largest of their ratios.
 #[must_use]
-pub fn parts(rows: &[&Row], grid: &Grid, best: f64) -> Option<u32> {
-    let values: Vec<Vec<f64>> = rows.iter().map(|row| row.along(grid).collect()).collect();
+pub fn parts<R: Began>(rows: &[&R], grid: &Grid, best: f64) -> Option<u32> {
+    let values: Vec<Vec<f64>> = rows.iter().map(|row| row.ratios(grid)).collect();
     let mut most = None;
     for three in values.windows(3) {
         for ((before, here), after) in three[0].iter().zip(&three[1]).zip(&three[2]) {

@@ -1,6 +1,7 @@
 //! The free robot at one command, linear in the errors of its calibration.
 
 use super::{Columns, Command, DRIFT, STATES, Six, States};
+use crate::model::orientation::from_vector;
 use crate::model::special::Angle;
 use crate::model::{Mat3, Pose, Vec3};
 use libm::sincos;
@@ -37,7 +38,7 @@ impl Linear {
     #[must_use]
     pub fn at(length: f64, command: &Command, errors: &Errors) -> Self {
         let translation = Vec3::new(errors[0], errors[1], errors[2]);
-        let turn = rotation(&Vec3::new(errors[3], errors[4], errors[5]));
+        let turn = from_vector(&Vec3::new(errors[3], errors[4], errors[5]));
         let [stretch, scale, offset, across, latency] = [errors[6], errors[7], errors[8], errors[9], errors[10]];
         // To first order in the latency: what is left out is a bend, which is free.
         let commanded = command.bend - latency * command.rate;
@@ -77,17 +78,6 @@ impl Linear {
     pub fn residual(&self, reading: &Pose) -> Six {
         super::course::residual(&self.pose, &self.axes, reading)
     }
-}
-
-/// The rotation of a rotation vector (rad).
-fn rotation(vector: &Vec3) -> Mat3 {
-    let angle = vector.norm();
-    if angle == 0.0 {
-        return Mat3::identity();
-    }
-    let turn = Angle::new(angle);
-    let hat = vector.cross_matrix();
-    Mat3::identity() + hat * turn.sinc() + hat * hat * turn.versinc()
 }
 
 /// A vector of errors in their own units.

@@ -6,7 +6,7 @@
 
 use super::course::{Model, Moment, residual};
 use super::filter::{Designer, Filter, Stage};
-use super::likelihood::{self, Base, Grid, Row};
+use super::likelihood::{self, Base, Began, Grid, Row};
 use super::linear::{self, Linear};
 use super::signature::Shapes;
 use super::{Command, STATES, Six, States};
@@ -20,8 +20,8 @@ pub const BEFORE: usize = 100;
 const STRIDE: usize = 4;
 /// Beginnings whose log likelihood is this much below the best are left out.
 const NEGLIGIBLE: f64 = 16.0;
-/// The calibration is estimated up to so many readings before the contact.
-pub(super) const CLEAR: usize = 2;
+/// The calibration is estimated up to so many readings before a contact.
+pub const CLEAR: usize = 2;
 /// Steps of Gauss and Newton; each is about the square of the one before, so that what follows one below [`SETTLED`] prior deviations
 /// counts for nothing.
 const STEPS: usize = 4;
@@ -83,7 +83,7 @@ pub struct Question<'a> {
 }
 
 /// An error of the calibration is believed up to so many of its prior standard deviations.
-pub(super) const BELIEVED: f64 = 6.0;
+pub const BELIEVED: f64 = 6.0;
 
 /// Places the contact that an alarm told of, from all readings so far. `None` where nothing moved, and where the readings before the
 /// contact tell of calibration errors far beyond those that were thought possible.
@@ -177,6 +177,7 @@ pub(super) fn calibrate(history: &History, until: usize, nominal: &[States]) -> 
 }
 
 /// Readings by a model that is linear about some errors of the calibration.
+#[derive(Debug)]
 pub(super) struct About {
     pub stages: Vec<Stage>,
     pub innovations: Vec<Six>,
@@ -210,11 +211,11 @@ pub(super) fn about_errors(history: &History, mut errors: linear::Errors, count:
     all
 }
 
-/// Contacts of one kind: beginnings that were tried, `parts` of them to a reading.
+/// Contacts of one kind: what was tried, and how many of them there are to a reading and to all else that is not known.
 pub(super) struct Tried {
     pub kind: Kind,
     pub rows: Vec<Row>,
-    pub parts: u32,
+    pub parts: f64,
 }
 
 fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Question) -> Option<Estimate> {
@@ -238,7 +239,7 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
         };
         let row = |began: (usize, f64)| about.row(&shapes, began, side);
         let (rows, parts) = rows(row, &moving, began, parts, &Grid::coarse(Base::Stays));
-        Tried { kind, rows, parts }
+        Tried { kind, rows, parts: f64::from(parts) }
     });
     let all: Vec<Tried> = all.collect();
     let deviations = linear::errors(&calibrated.deviations, &model.belief.deviations);
@@ -248,22 +249,22 @@ fn placed(history: &History, began: usize, calibrated: &Calibrated, question: &Q
 }
 
 /// The beginnings that count, and how many of them there are to a reading, at most `parts`.
-pub(super) fn rows(
-    row: impl Fn((usize, f64)) -> Row,
+pub(super) fn rows<R: Began>(
+    row: impl Fn((usize, f64)) -> R,
     moving: &[usize],
     began: usize,
     parts: u32,
     grid: &Grid,
-) -> (Vec<Row>, u32) {
+) -> (Vec<R>, u32) {
     let mut best = f64::NEG_INFINITY;
-    let mut rows: Vec<(f64, Row)> = Vec::new();
+    let mut rows: Vec<(f64, R)> = Vec::new();
     // Outward from the likeliest beginning, to where nothing is left.
     let start = moving.partition_point(|&k| k < began);
     let sides: [&mut dyn Iterator<Item = &usize>; 2] = [&mut moving[start..].iter(), &mut moving[..start].iter().rev()];
     for side in sides {
         for &next in side {
             let row = row((next, 0.0));
-            let most = row.most(grid);
+            let most = row.largest(grid);
             best = best.max(most);
             rows.push((most, row));
             if most < best - NEGLIGIBLE {
@@ -271,13 +272,13 @@ pub(super) fn rows(
             }
         }
     }
-    rows.sort_by(|a, b| a.1.began.total_cmp(&b.1.began));
-    let all: Vec<&Row> = rows.iter().map(|(_, row)| row).collect();
+    rows.sort_by(|a, b| a.1.began().total_cmp(&b.1.began()));
+    let all: Vec<&R> = rows.iter().map(|(_, row)| row).collect();
     let parts = likelihood::parts(&all, grid, best).map_or(parts, |enough| enough.min(parts)).max(1);
     rows.retain(|(most, _)| *most > best - NEGLIGIBLE);
     let part = |part: u32| f64::from(part) / f64::from(parts);
     let divided = rows.into_iter().flat_map(|(_, whole)| {
-        let between = (1..parts).map(part).map(|part| row((whole.began as usize, part))).collect::<Vec<_>>();
+        let between = (1..parts).map(part).map(|part| row((whole.began() as usize, part))).collect::<Vec<_>>();
         std::iter::once(whole).chain(between)
     });
     (divided.collect(), parts)
@@ -321,7 +322,7 @@ impl Sum {
                 let after = commands.get(whole + 1).map_or(commands[whole].time, |after| after.time);
                 let at = commands[whole].time + part * (after - commands[whole].time);
                 for (value, density) in values.iter().zip(&mut density) {
-                    let here = exp(value - best) / f64::from(tried.parts);
+                    let here = exp(value - best) / tried.parts;
                     *density += here;
                     weight += here;
                     began += here * at;
@@ -345,7 +346,6 @@ impl Sum {
     }
 }
 
-/// Adds the rows up, as densely as their sum is narrow.
 /// What is weighed besides the likelihood.
 pub(super) struct Weighed<'a> {
     pub base: Base,
@@ -357,6 +357,7 @@ pub(super) struct Weighed<'a> {
     pub calibration: [[f64; STATES]; 2],
 }
 
+/// Adds the rows up, as densely as their sum is narrow.
 pub(super) fn weigh(all: &[Tried], weighed: &Weighed) -> Option<Estimate> {
     let Weighed { base, length, commands, beginnings, calibration } = *weighed;
     let mut sum = Sum::of(all, commands, Grid::fine(base))?;

@@ -4,15 +4,19 @@ use crate::model::contact::branch::{Branch, Surface};
 use crate::model::contact::{Meeting, Planar, free_tip};
 use libm::{cos, sincos};
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Places at which signatures are made. Between them they are a polynomial through these and zero at the base, where a contact changes
 /// nothing: better than a micrometre of the paper's segment.
 pub const PLACES: usize = 8;
 
+static AT: LazyLock<[f64; PLACES]> =
+    LazyLock::new(|| std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * PLACES + 1) as f64))));
+
 /// The places, in units of L: with the base, Chebyshev points of Radau's kind.
 #[must_use]
 pub fn places() -> [f64; PLACES] {
-    std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * PLACES + 1) as f64)))
+    *AT
 }
 
 /// What each of the places counts in the signature of a contact at another one (in units of L): Lagrange's polynomials, with the base.

@@ -9,7 +9,7 @@ use crate::scenario::Kind;
 /// A cumulative sum above this tells of a contact, or of innovations that are not white.
 const CONTACT: f64 = 8.0;
 /// Readings before the last at which the sum was zero, at which a contact may have begun nevertheless.
-const EARLIER: usize = 25;
+pub const EARLIER: usize = 25;
 
 /// Readings, and what came of each.
 #[derive(Debug, Clone, PartialEq)]

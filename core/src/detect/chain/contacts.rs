@@ -1,15 +1,15 @@
 //! Which segments carry contacts, where on the backbone, and since when.
 
-use super::hypotheses::{Course, KnownContact};
+use super::course::KnownContact;
+use super::heard::{Asked, Each, Heard, Last};
 use super::{ChainEvent, ChainJudged, ChainMethod};
-use crate::detect::calibration::course::{Moment, Planner};
-use crate::detect::calibration::jointly::{self, Question};
-use crate::detect::calibration::marginal::{Estimate, History, Place};
+use crate::detect::calibration::jointly::Placed;
+use crate::detect::calibration::marginal::Place;
 use crate::detect::calibration::watched::Watched;
 use crate::detect::{Method, Settings};
-use crate::model::Pose;
 use crate::model::chain::{Rod, Torsion, stiffnesses};
-use crate::scenario::Estimator;
+use crate::scenario::chain::Tracked;
+use crate::scenario::{Estimator, Kind};
 use libm::exp;
 
 /// A contact that alarms tell of.
@@ -46,6 +46,11 @@ pub struct ChainEstimate {
     pub along: Along,
     /// When it began, s; none where the estimator does not say.
     pub began: Option<f64>,
+    /// Probability of each kind of contact on that segment; empty where the estimator does not say.
+    pub kinds: Vec<(Kind, f64)>,
+    /// By how much the normal of a plane there is turned about the backbone's tangent from the bending plane, rad: the likeliest; none where
+    /// the estimator does not say.
+    pub tilt: Option<f64>,
     /// Of every segment that was thought of: arc lengths from its base (m) and probability densities (1/m), the probability of the segment
     /// counted in.
     pub posterior: Vec<Vec<[f64; 2]>>,
@@ -119,9 +124,12 @@ impl ChainJudged {
 
     /// What every segment showed up to a time (s).
     fn heard(&self, time: f64) -> Option<Heard<'_>> {
+        if let Some(watch) = &self.whole {
+            return Last::new(watch, self.rods(), time).map(Heard::Last);
+        }
         let watched: Vec<&Watched> =
             self.segments.iter().map(|judged| judged.watched.as_ref()).collect::<Option<_>>()?;
-        Heard::new(&watched, &self.rods(), time)
+        Each::new(watched, self.rods(), time).map(Heard::Each)
     }
 
     /// The nominal rods: distal backbones run inside proximal ones.
@@ -141,9 +149,12 @@ impl ChainJudged {
     fn began_before(&self, known: &[KnownContact], segment: usize, alarm: f64, before: f64) -> bool {
         let began = || {
             let heard = self.heard(alarm)?;
-            let reading = heard.course.last;
-            let between = [heard.watched[segment].earliest(reading)?, reading];
-            heard.asked(known, segment, between, 1).map(|estimate| estimate.began)
+            let between = [heard.earliest(segment, heard.last())?, heard.last()];
+            heard
+                .listen(known, between[0])?
+                .to(segment, between, 0.0)?
+                .told(1, 1.0, f64::NEG_INFINITY)
+                .map(|placed| placed.estimate.began)
         };
         began().map_or(alarm - before < SAME, |began| began <= before)
     }
@@ -152,14 +163,14 @@ impl ChainJudged {
     fn settled(&self, contact: &ChainContactFound, time: f64) -> Option<KnownContact> {
         let estimate = self.marginal(contact, time - contact.alarm, time)?;
         let began = self.heard(time)?.reading(estimate.began?);
-        Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, began })
+        Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, tilt: estimate.tilt?, began })
     }
 
     /// What is known of one of the contacts that a detector tells of, so long after its alarm (s); none where the run ends before, or nothing is.
     #[must_use]
     pub fn estimate(&self, detector: ChainMethod, contact: &ChainContactFound, after: f64) -> Option<ChainEstimate> {
         let time = contact.alarm + after;
-        if self.relative.first()?.entries.last()?.time < time {
+        if self.end < time {
             return None;
         }
         self.marginal(contact, after, time).or_else(|| self.by_centrode(detector, contact, after, time))
@@ -168,31 +179,64 @@ impl ChainJudged {
     /// Every segment is asked for the probability of all readings with a contact on it, over that without.
     fn marginal(&self, contact: &ChainContactFound, after: f64, time: f64) -> Option<ChainEstimate> {
         let heard = self.heard(time)?;
-        let raised = heard.watched.get(contact.raised_by)?;
-        let latest = raised.at(contact.alarm)?;
+        let latest = heard.at(contact.raised_by, contact.alarm)?;
         // As early as any segment that deviates by now leaves open.
-        let earliest = contact.deviating.iter().filter_map(|&segment| heard.watched[segment].earliest(latest)).min();
-        let between = [earliest.or_else(|| raised.earliest(latest))?, latest];
+        let earliest = contact.deviating.iter().filter_map(|&segment| heard.earliest(segment, latest)).min();
+        let between = [earliest.or_else(|| heard.earliest(contact.raised_by, latest))?, latest];
         let parts = self.settings.segments[0].placing.beginnings;
-        let each: Vec<Option<Estimate>> =
-            (0..heard.watched.len()).map(|segment| heard.asked(&contact.before, segment, between, parts)).collect();
-        let ratio =
-            |estimate: &Option<Estimate>| estimate.as_ref().map_or(f64::NEG_INFINITY, |estimate| estimate.ratio);
+        let listening = heard.listen(&contact.before, between[0])?;
+        let told = |asked: &Option<Asked>, doubt: f64, rival: f64| asked.as_ref()?.told(parts, doubt, rival);
+        let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);
+        let evidence =
+            |each: &[Option<Placed>]| each.iter().flatten().map(|of| of.estimate.evidence).fold(0.0, f64::max);
+        let mut asked: Vec<_> = (0..heard.segments()).map(|segment| listening.to(segment, between, 0.0)).collect();
+        let mut each: Vec<Option<Placed>> = vec![None; asked.len()];
+        // The most distal one that deviates is likely the one: beside it others need no closer look.
+        let likely = contact.deviating.last().copied().unwrap_or(contact.raised_by);
+        for segment in std::iter::once(likely).chain((0..asked.len()).filter(|segment| *segment != likely)) {
+            each[segment] = told(&asked[segment], 1.0, evidence(&each));
+        }
+        let best = each.iter().map(ratio).fold(f64::NEG_INFINITY, f64::max);
+        for (segment, placed) in each.iter_mut().enumerate() {
+            // Once more where planes stand askew.
+            if let Some(tilt) = placed.as_ref().map(|placed| placed.tilt).filter(|tilt| tilt.abs() > ASKEW)
+                && ratio(placed) > best - UNLIKELY
+            {
+                asked[segment] = listening.to(segment, between, tilt);
+                *placed = told(&asked[segment], 1.0, f64::NEG_INFINITY);
+            }
+        }
+        let doubt = listening.doubt(between[0], evidence(&each));
+        if doubt > 1.0 {
+            each = asked.iter().map(|asked| told(asked, doubt, f64::NEG_INFINITY)).collect();
+        }
         let ratios: Vec<f64> = each.iter().map(ratio).collect();
         let (probabilities, nothing) = shares(&ratios)?;
         let segment = (0..probabilities.len()).max_by(|&a, &b| probabilities[a].total_cmp(&probabilities[b]))?;
         let posterior: Vec<Vec<[f64; 2]>> = each
             .iter()
             .zip(&probabilities)
-            .map(|(estimate, share)| {
-                let density = estimate.iter().flat_map(|estimate| &estimate.posterior);
+            .map(|(placed, share)| {
+                let density = placed.iter().flat_map(|placed| &placed.estimate.posterior);
                 density.map(|[place, density]| [*place, density * share]).collect()
             })
             .collect();
-        let chosen = each[segment].as_ref()?;
+        let Placed { estimate: chosen, tilt } = each[segment].as_ref()?;
         let along = self.along(&posterior, segment, &chosen.place);
-        let (place, began) = (chosen.place, Some(chosen.began));
-        Some(ChainEstimate { after, time, segment, probabilities, nothing, place, along, began, posterior })
+        let (place, began, kinds, tilt) = (chosen.place, Some(chosen.began), chosen.kinds.clone(), Some(*tilt));
+        Some(ChainEstimate {
+            after,
+            time,
+            segment,
+            probabilities,
+            nothing,
+            place,
+            along,
+            began,
+            kinds,
+            tilt,
+            posterior,
+        })
     }
 
     /// Arc length of a segment's base from that of the chain, m.
@@ -247,8 +291,19 @@ impl ChainJudged {
         let place = judged.estimate(&self.relative[segment], contact.alarm, after, Estimator::Eq24)?.location;
         let probabilities = (0..self.segments.len()).map(|k| f64::from(u8::from(k == segment))).collect();
         let along = self.along(&[], segment, &place);
-        let (nothing, began, posterior) = (0.0, None, Vec::new());
-        Some(ChainEstimate { after, time, segment, probabilities, nothing, place, along, began, posterior })
+        Some(ChainEstimate {
+            after,
+            time,
+            segment,
+            probabilities,
+            nothing: 0.0,
+            place,
+            along,
+            began: None,
+            kinds: Vec::new(),
+            tilt: None,
+            posterior: Vec::new(),
+        })
     }
 
     /// The detector by which contacts are told apart where nothing else is said: the first of these that judges.
@@ -256,70 +311,19 @@ impl ChainJudged {
     pub fn teller(&self) -> Option<ChainMethod> {
         let asked = [Method::Cusum, Method::Glr, Method::FcdConsistent, Method::FcdVelocity, Method::Fcd];
         let method = asked.into_iter().find(|method| self.settings.methods.contains(method)).map(ChainMethod::Of);
-        let told = self.settings.tracked == crate::scenario::chain::Tracked::All;
-        method.filter(|_| told).or(self.settings.smd.map(|_| ChainMethod::Smd))
+        let told = |method: &ChainMethod| {
+            self.settings.tracked == Tracked::All || *method == ChainMethod::Of(Method::Cusum) && self.whole.is_some()
+        };
+        method.filter(told).or(self.settings.smd.map(|_| ChainMethod::Smd))
     }
 }
 
+/// A plane that stands more askew than this, rad, is asked for once more, on a segment whose probability is not smaller by more than this, as a
+/// logarithm.
+const ASKEW: f64 = 0.01;
+const UNLIKELY: f64 = 12.0;
 /// Without the calibration filter, alarms of segments above within this time (s) tell of the same contact.
 const SAME: f64 = 0.5;
-
-/// What was read on all end disks.
-struct Heard<'a> {
-    watched: Vec<&'a Watched>,
-    moments: Vec<Vec<Moment>>,
-    course: Course,
-}
-
-impl<'a> Heard<'a> {
-    fn new(watched: &[&'a Watched], rods: &[Rod], time: f64) -> Option<Self> {
-        let last = watched.iter().map(|watched| watched.at(time)).collect::<Option<Vec<_>>>()?.into_iter().min()?;
-        let moments = watched
-            .iter()
-            .map(|watched| Some(Planner::all(&watched.model, watched.readings.commands.get(..=last)?, false)));
-        let moments: Vec<Vec<Moment>> = moments.collect::<Option<_>>()?;
-        let poses = watched.iter().map(|watched| &watched.readings.poses[..=last]);
-        let course = Course::new(rods, &histories(watched, &moments, poses))?;
-        Some(Self { watched: watched.to_vec(), moments, course })
-    }
-
-    /// The reading, and the share of the way to the next, at a time (s).
-    fn reading(&self, time: f64) -> f64 {
-        let commands = &self.watched[0].readings.commands;
-        let after = commands.partition_point(|command| command.time <= time).min(self.course.last);
-        let before = after.saturating_sub(1);
-        let span = commands[after].time - commands[before].time;
-        let share = if span > 0.0 { (time - commands[before].time) / span } else { 0.0 };
-        before as f64 + share.clamp(0.0, 1.0)
-    }
-
-    /// What all readings say of a contact on one segment that began between two readings.
-    fn asked(&self, known: &[KnownContact], segment: usize, between: [usize; 2], parts: u32) -> Option<Estimate> {
-        let planes = self.course.planes(known)?;
-        let last = self.course.last;
-        let poses: Vec<&[Pose]> = self.watched.iter().map(|watched| &watched.readings.poses[..=last]).collect();
-        let corrected = match known.first() {
-            None => None,
-            Some(first) => Some(self.course.without(&planes, first.began, &poses)?),
-        };
-        let poses = corrected.as_ref().map_or(poses, |poses| poses.iter().map(Vec::as_slice).collect());
-        let beginnings = self.course.moving(between);
-        let hypotheses = self.course.hypotheses(segment, between, &planes)?;
-        let length = self.watched[segment].model.length;
-        let question = Question { beginnings: &beginnings, parts, segment, length };
-        let histories = histories(&self.watched, &self.moments, poses.into_iter());
-        jointly::estimate(&histories, &hypotheses, &question)
-    }
-}
-
-fn histories<'a>(
-    watched: &[&'a Watched],
-    moments: &'a [Vec<Moment>],
-    poses: impl Iterator<Item = &'a [Pose]>,
-) -> Vec<History<'a>> {
-    let each = watched.iter().zip(moments).zip(poses);
-    each.map(|((watched, moments), readings)| History { model: &watched.model, moments, readings }).collect()
-}
 
 /// The probability of each segment, and of no contact, every one as likely beforehand, from the logarithms of the ratios for each.
 fn shares(ratios: &[f64]) -> Option<(Vec<f64>, f64)> {

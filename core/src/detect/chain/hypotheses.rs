@@ -1,60 +1,63 @@
-//! What planes on a segment change in the motion of every end disk.
+//! What contacts on a segment change in what the trackers read.
 //!
-//! The joints fix how far each segment bends, whatever touches it: that angle is measured, smoothed over some readings, and drives the
-//! model of the whole chain against a plane. Its shapes are exact; they are solved at a few places, beginnings and times after them, and
-//! interpolated in between.
+//! The joints fix how far each segment bends, whatever touches it: that drives the model of the whole chain against a plane. Its shapes are
+//! exact; they are solved at a few places, tilts, beginnings and times after them, and interpolated in between. A clamp is an arc upon an arc.
 
-use crate::detect::calibration::course::{Moment, residual};
+use super::course::{Course, last};
+use crate::detect::calibration::Six;
+use crate::detect::calibration::course::residual;
 use crate::detect::calibration::filter::Signature;
 use crate::detect::calibration::jointly;
-use crate::detect::calibration::marginal::History;
+use crate::detect::calibration::sheet::{Softness, TILTS, WIDE, tilts};
 use crate::detect::calibration::signature::{PLACES, places};
-use crate::model::chain::pressed::Pressed;
-use crate::model::chain::{Bends, Contact, Rod, bends, configuration, free};
-use crate::model::{Configuration, Mat3, Pose, Vec3};
+use crate::model::chain::Contact;
+use crate::model::{Configuration, Mat3, Pose};
 use libm::cos;
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 /// Beginnings, and times after each, at which shapes are solved.
-const BEGINNINGS: usize = 5;
+const BEGINNINGS: usize = 4;
 const TIMES: usize = 6;
-/// Readings to either side over which angles are smoothed by a parabola.
-const SMOOTHED: usize = 8;
-/// A contact begins where something is told to move by more than this (rad) from one reading to the next.
-const STILL: f64 = 1e-6;
 
-/// A contact that is known: its segment, its place on it (m), and the reading at which it was met.
+/// What the trackers see.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct KnownContact {
-    pub segment: usize,
-    pub at: f64,
-    pub began: f64,
-}
-
-/// How far every segment bends, reading by reading, and how it is told to.
-#[derive(Debug)]
-pub(super) struct Course {
-    rods: Vec<Rod>,
-    bends: Vec<Vec<f64>>,
-    deltas: Vec<Vec<f64>>,
-    commanded: Vec<Vec<f64>>,
-    pub last: usize,
+pub(super) enum Seen {
+    /// Every end disk, in the frame of the one below it.
+    Each,
+    /// The last end disk alone, along these axes in {B}.
+    Last(Mat3),
 }
 
 /// What contacts on one segment change.
 #[derive(Debug)]
-pub(super) struct Hypotheses {
+pub(super) struct Hypotheses<'a> {
+    course: &'a Course,
     segment: usize,
-    /// Beginnings in readings, and the last reading.
+    seen: Seen,
+    /// Beginnings in readings.
     began: [f64; BEGINNINGS],
-    last: f64,
     /// By tracker, then by beginning, then by time.
-    signatures: Vec<Vec<[Signature<PLACES>; TIMES]>>,
+    planes: Vec<Vec<[Signature<WIDE>; TIMES]>>,
+    may_clamp: bool,
+    softness: Softness,
 }
+
+/// Contacts that began at the same instant.
+#[derive(Debug)]
+pub(super) struct Met<'a> {
+    of: &'a Hypotheses<'a>,
+    began: f64,
+    /// By tracker, then by time.
+    planes: Vec<[Signature<WIDE>; TIMES]>,
+}
+
+static AT: LazyLock<[f64; TIMES]> =
+    LazyLock::new(|| std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * TIMES + 1) as f64))));
 
 /// Shares of the time from a beginning to the last reading: with the beginning, Chebyshev points of Radau's kind.
 fn times() -> [f64; TIMES] {
-    std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * TIMES + 1) as f64)))
+    *AT
 }
 
 /// Lagrange's polynomials of these nodes at a point; with one more at 0, which counts for nothing, where there is one.
@@ -65,181 +68,179 @@ fn weights<const N: usize>(nodes: &[f64; N], at: f64, zero: bool) -> [f64; N] {
     })
 }
 
-impl jointly::Hypotheses for Hypotheses {
-    fn seen_by(&self) -> usize {
-        self.segment + 1
-    }
-
-    fn signature(&self, tracker: usize, began: f64, reading: usize) -> Signature<PLACES> {
-        let share = (reading as f64 - began) / (self.last - began);
-        let mut sum = Signature::zeros();
-        if share <= 0.0 {
-            return sum;
-        }
-        let by_time = weights(&times(), share, true);
-        for (signatures, by) in self.signatures[tracker].iter().zip(weights(&self.began, began, false)) {
-            for (signature, weight) in signatures.iter().zip(by_time) {
-                sum += signature * (by * weight);
-            }
-        }
-        sum
-    }
-}
-
-impl Course {
-    /// Of the readings of every segment.
-    pub fn new(rods: &[Rod], histories: &[History]) -> Option<Self> {
-        let last = histories.iter().map(|history| history.readings.len()).min()?.checked_sub(1)?;
-        let of = |value: fn(&Moment) -> f64| {
-            let each = histories.iter().map(|history| history.moments[..=last].iter().map(value).collect());
-            each.collect::<Vec<Vec<f64>>>()
-        };
-        let measured = |history: &History| {
-            let angle = |(moment, pose): (&Moment, &Pose)| moment.command.bend + moment.residual(pose)[0];
-            let raw: Vec<f64> = history.moments.iter().zip(history.readings).take(last + 1).map(angle).collect();
-            (0..raw.len()).map(|k| smoothed(k, &raw)).collect()
-        };
-        let bends = histories.iter().map(measured).collect();
-        let (deltas, commanded) = (of(|moment| moment.command.delta), of(|moment| moment.command.bend));
-        Some(Self { rods: rods.to_vec(), bends, deltas, commanded, last })
-    }
-
-    /// The readings between two at which something is told to move.
-    pub fn moving(&self, [first, latest]: [usize; 2]) -> Vec<usize> {
-        let changes = |all: &[Vec<f64>], k: usize| all.iter().any(|of| (of[k + 1] - of[k]).abs() > STILL);
-        let moves = |k: &usize| changes(&self.commanded, *k) || changes(&self.deltas, *k);
-        (first..self.last.min(latest + 1)).filter(moves).collect()
-    }
-
-    fn configuration(&self, segment: usize, at: f64) -> Configuration {
-        let before = (at.max(0.0) as usize).min(self.last);
-        let (after, share) = ((before + 1).min(self.last), (at - before as f64).clamp(0.0, 1.0));
-        let mean = |all: &[f64]| all[before] + share * (all[after] - all[before]);
-        Configuration::new(mean(&self.bends[segment]), mean(&self.deltas[segment]))
-    }
-
-    fn at(&self, at: f64) -> Vec<Bends> {
-        (0..self.rods.len()).map(|segment| bends(self.configuration(segment, at))).collect()
-    }
-
-    fn largest(&self) -> Vec<Bends> {
-        let most = |all: &Vec<f64>| all.iter().map(|bend| bend.abs()).fold(0.0, f64::max);
-        self.bends.iter().map(|all| Bends::new(0.0, most(all))).collect()
-    }
-
-    /// The plane that a contact meets at an instant: where its point is then, and along the tangent there, with the contacts that hold before.
-    fn plane(&self, known: &[Contact], segment: usize, place: f64, began: f64) -> Option<Contact> {
-        let bends = self.at(began);
-        let relative = if known.is_empty() {
-            bends.iter().zip(&self.rods).map(|(bends, rod)| free::pose(rod.length, configuration(bends))).collect()
-        } else {
-            Pressed::new(&self.rods, known, &self.largest(), known.len()).next(&bends)?
-        };
-        let nothing = Pose { position: Vec3::zeros(), rotation: Mat3::identity() };
-        let base = relative[..segment].iter().fold(nothing, joined);
-        let own = self.configuration(segment, began);
-        let point = joined(base, &free::pose(place * self.rods[segment].length, own.with_bend(place * own.bend())));
-        let (sin, cos) = own.sin_cos_delta();
-        let normal = point.rotation * Vec3::new(cos, -sin, 0.0);
-        Some(Contact { segment, at: place * self.rods[segment].length, normal, offset: normal.dot(&point.position) })
-    }
-
-    /// The planes of contacts that are known, the earlier ones first.
-    pub fn planes(&self, known: &[KnownContact]) -> Option<Vec<Contact>> {
-        let mut planes = Vec::new();
-        for contact in known {
-            let place = contact.at / self.rods[contact.segment].length;
-            planes.push(self.plane(&planes, contact.segment, place, contact.began)?);
-        }
-        Some(planes)
-    }
-
-    /// What contacts on a segment that began between two readings change, besides those that are known.
-    pub fn hypotheses(&self, segment: usize, [first, latest]: [usize; 2], known: &[Contact]) -> Option<Hypotheses> {
-        let last = self.last as f64;
-        let latest = (latest as f64).min(last - 1.0);
-        let (middle, half) = (0.5 * (first as f64 + latest), (0.5 * (latest - first as f64)).max(0.5));
+impl<'a> Hypotheses<'a> {
+    /// Of contacts on a segment that began between two readings, besides those that are known; `first_tilt` (rad) is the first of the tilts at
+    /// which shapes are solved.
+    pub fn new(
+        course: &'a Course,
+        seen: Seen,
+        segment: usize,
+        [first, latest]: [usize; 2],
+        known: &[Contact],
+        first_tilt: f64,
+    ) -> Option<Self> {
+        let end = course.last as f64;
+        let last_began = (latest as f64).min(end - 1.0);
+        let (middle, half) = (0.5 * (first as f64 + last_began), (0.5 * (last_began - first as f64)).max(0.5));
         let began = std::array::from_fn(|j| middle - half * cos(PI * (j as f64 + 0.5) / BEGINNINGS as f64));
-        let none: [Signature<PLACES>; TIMES] = [Signature::zeros(); TIMES];
-        let mut signatures = vec![vec![none; BEGINNINGS]; segment + 1];
-        let largest = self.largest();
+        let trackers = if seen == Seen::Each { segment + 1 } else { 1 };
+        let none: [Signature<WIDE>; TIMES] = [Signature::zeros(); TIMES];
+        let may_clamp = course.rests_below(segment, first);
+        let planes = vec![vec![none; BEGINNINGS]; trackers];
+        let mut of = Self { course, segment, seen, began, planes, may_clamp, softness: Softness::even() };
+        let mut soft = [[1.0; TILTS]; PLACES];
         for (row, &began) in began.iter().enumerate() {
-            let instants = times().map(|share| began + share * (last - began));
-            let without = self.course(known, &largest, &instants, known.len())?;
+            let instants = times().map(|share| began + share * (end - began));
+            let without: Vec<Vec<Pose>> = if known.is_empty() {
+                instants.iter().map(|at| course.free(*at)).collect()
+            } else {
+                course.followed(known, &instants, known.len())
+            };
             for (column, place) in places().into_iter().enumerate() {
-                let mut contacts = known.to_vec();
-                contacts.push(self.plane(known, segment, place, began)?);
-                let with = self.course(&contacts, &largest, &instants, known.len())?;
-                for (time, (with, without)) in with.iter().zip(&without).enumerate() {
-                    for (tracker, signatures) in signatures.iter_mut().enumerate() {
-                        let axes = axes(self.configuration(tracker, instants[time]));
-                        let off = residual(&without[tracker], &axes, &with[tracker]);
-                        signatures[row][time].set_column(column, &off);
+                let point = course.point(known, segment, place, began)?;
+                for (turned, tilt) in tilts(first_tilt).into_iter().enumerate() {
+                    let mut contacts = known.to_vec();
+                    contacts.push(course.plane(&point, segment, place, tilt, began));
+                    let with = course.followed(&contacts, &instants, known.len());
+                    if row == 0 {
+                        soft[column][turned] = course.softness(&contacts, 0.5 * (began + end))?;
+                    }
+                    for (time, (with, without)) in with.iter().zip(&without).enumerate() {
+                        for tracker in 0..trackers {
+                            let off = of.off(tracker, instants[time], without, with);
+                            of.planes[tracker][row][time].set_column(turned * PLACES + column, &off);
+                        }
                     }
                 }
             }
         }
-        Some(Hypotheses { segment, began, last, signatures })
+        of.softness = Softness::of(first_tilt, &soft);
+        Some(of)
     }
 
-    /// What was read, less what contacts that are known change in it since the first of them was met (in readings): a tracker would have read so
-    /// without them. `poses` holds the readings of every segment.
-    pub fn without(&self, known: &[Contact], since: f64, poses: &[&[Pose]]) -> Option<Vec<Vec<Pose>>> {
-        let mut corrected: Vec<Vec<Pose>> = poses.iter().map(|poses| poses[..=self.last].to_vec()).collect();
-        let first = (since.max(0.0) as usize + 1).min(self.last);
-        let instants: Vec<f64> = (first..=self.last).map(|k| k as f64).collect();
-        let largest = self.largest();
-        let with = self.course(known, &largest, &instants, known.len())?;
-        let free = self.course(&[], &largest, &instants, 0)?;
-        for (k, (with, free)) in with.iter().zip(&free).enumerate() {
-            for (tracker, poses) in corrected.iter_mut().enumerate() {
-                let pose = &mut poses[first + k];
-                pose.position -= with[tracker].position - free[tracker].position;
-                pose.rotation = free[tracker].rotation * with[tracker].rotation.tr_mul(&pose.rotation);
+    /// How a tracker's reading of some end disks differs from that of others.
+    fn off(&self, tracker: usize, at: f64, without: &[Pose], with: &[Pose]) -> Six {
+        match self.seen {
+            Seen::Each => {
+                let axes = axes(self.course.configuration(tracker, at));
+                residual(&without[tracker], &axes, &with[tracker])
             }
+            Seen::Last(axes) => residual(&last(without), &axes, &last(with)),
         }
-        Some(corrected)
-    }
-
-    /// The end disks, each in the frame of the one below it, at some instants; the first `pushing` contacts may be left.
-    fn course(
-        &self,
-        contacts: &[Contact],
-        largest: &[Bends],
-        instants: &[f64],
-        pushing: usize,
-    ) -> Option<Vec<Vec<Pose>>> {
-        if contacts.is_empty() {
-            let free = |at: &f64| {
-                let bent = self.at(*at);
-                bent.iter().zip(&self.rods).map(|(bends, rod)| free::pose(rod.length, configuration(bends))).collect()
-            };
-            return Some(instants.iter().map(free).collect());
-        }
-        let mut pressed = Pressed::new(&self.rods, contacts, largest, pushing);
-        instants.iter().map(|at| pressed.next(&self.at(*at))).collect()
     }
 }
 
-fn joined(base: Pose, end: &Pose) -> Pose {
-    Pose { position: base.position + base.rotation * end.position, rotation: base.rotation * end.rotation }
+impl<'a> jointly::Hypotheses for &'a Hypotheses<'a> {
+    type Met = Met<'a>;
+
+    fn seen_by(&self) -> usize {
+        self.planes.len()
+    }
+
+    fn met(&self, began: f64) -> Met<'a> {
+        let by = weights(&self.began, began, false);
+        let at = |all: &Vec<[Signature<WIDE>; TIMES]>| {
+            std::array::from_fn(|time| {
+                all.iter().zip(by).fold(Signature::zeros(), |sum, (signatures, by)| sum + signatures[time] * by)
+            })
+        };
+        Met { of: self, began, planes: self.planes.iter().map(at).collect() }
+    }
+
+    fn softness(&self) -> Softness {
+        self.softness
+    }
+
+    fn may_clamp(&self) -> bool {
+        self.may_clamp
+    }
+}
+
+impl jointly::Met for Met<'_> {
+    fn planes(&self, tracker: usize, reading: usize) -> Signature<WIDE> {
+        let share = (reading as f64 - self.began) / (self.of.course.last as f64 - self.began);
+        if share <= 0.0 {
+            return Signature::zeros();
+        }
+        let by_time = weights(&times(), share, true);
+        let mut signature = Signature::<WIDE>::zeros();
+        for (at, by) in self.planes[tracker].iter().zip(by_time) {
+            signature.zip_apply(at, |sum, at| *sum += at * by);
+        }
+        signature
+    }
+
+    fn clamps(&self, tracker: usize, reading: usize) -> Signature<PLACES> {
+        let Hypotheses { course, segment, seen, .. } = *self.of;
+        let at = reading as f64;
+        let mut signature = Signature::zeros();
+        if at <= self.began || (seen == Seen::Each && tracker != segment) {
+            return signature;
+        }
+        let free = course.free(at);
+        for (column, place) in places().into_iter().enumerate() {
+            let clamped = course.clamped(segment, place, self.began, at);
+            signature.set_column(column, &self.of.off(tracker, at, &free, &clamped));
+        }
+        signature
+    }
 }
 
 /// Axes of the bending plane, in the frame of the segment's base.
-fn axes(configuration: Configuration) -> Mat3 {
+pub(super) fn axes(configuration: Configuration) -> Mat3 {
     let (sin, cos) = configuration.sin_cos_delta();
     Mat3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
-/// The parabola through what is beside a value, at the value.
-fn smoothed(at: usize, all: &[f64]) -> f64 {
-    let window = at.saturating_sub(SMOOTHED)..(at + SMOOTHED + 1).min(all.len());
-    let (mut normal, mut right) = (Mat3::zeros(), Vec3::zeros());
-    for j in window {
-        let x = (j as f64 - at as f64) / SMOOTHED as f64;
-        let row = Vec3::new(1.0, x, x * x);
-        normal += row * row.transpose();
-        right += row * (all[j] - all[at]);
+#[cfg(test)]
+mod tests {
+    use super::super::course::Bending;
+    use super::*;
+    use crate::detect::calibration::jointly::{Hypotheses as _, Met as _};
+    use crate::detect::calibration::signature::free_weights;
+    use crate::model::chain::{Rod, Torsion};
+
+    /// Three segments that bend at once, as in the preset `three-segments`: 75 readings.
+    fn course() -> Course {
+        let rods = [3.0, 2.0, 1.0].map(|share| Rod {
+            length: 0.03,
+            bending_stiffness: 0.001 * share,
+            torsion: Torsion::Ratio(5.0),
+        });
+        let bending = |(bend, rate, delta, turn): (f64, f64, f64, f64)| {
+            let along = |from: f64, rate: f64| (0..75).map(|k| from + rate * f64::from(k) * 0.01).collect::<Vec<_>>();
+            Bending { bends: along(bend, rate), deltas: along(delta, turn), commanded: along(bend, rate) }
+        };
+        let told = [(0.4, 0.19, 0.3, 0.0), (0.47, 0.22, 0.5, 0.25), (0.6, 0.28, -0.5, 0.0)];
+        Course::new(rods.into(), told.map(bending).into()).expect("readings")
     }
-    all[at] + normal.cholesky().map_or(0.0, |factor| factor.solve(&right).x)
+
+    #[test]
+    fn between_the_nodes_it_is_what_is_solved() {
+        let course = course();
+        // Strong contacts far out have more waves over the tilt than others: they are solved at the tilt that they seem to have.
+        for (segment, first) in [(0, 0.0), (1, 0.0), (2, 0.0), (2, 0.35), (2, -0.7)] {
+            let hypotheses = Hypotheses::new(&course, Seen::Each, segment, [0, 25], &[], first).expect("solved");
+            let of = &hypotheses;
+            for (began, reading, place, tilt) in
+                [(3.3, 74, 0.5, 0.0), (18.0, 60, 0.41, 0.35), (11.0, 30, 0.63, 1.2), (24.0, 74, 0.55, -0.7)]
+            {
+                if segment == 2 && tilt != first {
+                    continue;
+                }
+                let point = course.point(&[], segment, place, began).expect("free");
+                let plane = course.plane(&point, segment, place, tilt, began);
+                let at = f64::from(reading);
+                let with = course.followed(&[plane], &[at], 0);
+                let exact = of.off(segment, at, &course.free(at), &with[0]);
+                let signature = of.met(began).planes(segment, reading as usize);
+                let (tilted, along) = (hypotheses.softness.tilted(tilt), free_weights(place));
+                let ours = (0..TILTS).fold(Six::zeros(), |sum, a| {
+                    (0..PLACES).fold(sum, |sum, i| sum + signature.column(a * PLACES + i) * (tilted[a][i] * along[i]))
+                });
+                let off = (ours - exact).fixed_rows::<3>(1).norm();
+                assert!(off < 3e-6, "segment {segment}, {began}, {tilt}: {off} of {exact}");
+            }
+        }
+    }
 }

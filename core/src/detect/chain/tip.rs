@@ -1,8 +1,11 @@
 //! With a tracker on the last end disk alone: its screw motion against that of the whole chain.
 
-use super::{ChainEvent, ChainSettings, screw_events};
+use super::whole::watch::Watch;
+use super::{ChainEvent, ChainMethod, ChainSettings, screw_events};
+use crate::detect::Method;
 use crate::detect::evidence::Judgement;
 use crate::detect::filter::{FilteredMotion, PoseFilter};
+use crate::detect::latch::{Latch, Turn};
 use crate::model::centrode::centrode;
 use crate::model::chain::{bends, free};
 use crate::model::orientation::to_euler;
@@ -31,6 +34,36 @@ pub(super) fn events(recording: &ChainRecording, settings: &ChainSettings) -> Ve
     });
     let judgements: Vec<(f64, Judgement)> = judgements.collect();
     screw_events(recording.segments() - 1, judgements.into_iter(), own, smd)
+}
+
+/// The events of the cumulative sum over the innovations of the whole chain's calibration filter.
+pub(super) fn alarms(watch: &Watch, recording: &ChainRecording, settings: &ChainSettings) -> Vec<ChainEvent> {
+    let mut events: Vec<ChainEvent> = Vec::new();
+    let Some(thresholds) = settings.segments.last().map(|own| &own.thresholds) else { return events };
+    let Some(threshold) = thresholds.of(Method::Cusum).value() else { return events };
+    let mut latch = Latch::default();
+    for &time in &recording.times {
+        let Some(value) = watch.at(time).map(|reading| watch.sums[reading]) else { continue };
+        let low = value <= thresholds.release * threshold;
+        match latch.look(time, value > threshold, low, thresholds.hold).1 {
+            Some(Turn::Raised) => events.push(ChainEvent {
+                segment: recording.segments() - 1,
+                detector: ChainMethod::Of(Method::Cusum),
+                raised: time,
+                cleared: None,
+                value,
+                threshold,
+                angle: None,
+            }),
+            Some(Turn::Cleared) => {
+                if let Some(last) = events.last_mut() {
+                    last.cleared = Some(time);
+                }
+            }
+            None => {}
+        }
+    }
+    events
 }
 
 fn judgement(sensor: &FilteredMotion, model: &FilteredMotion) -> Judgement {

@@ -1,8 +1,10 @@
 //! A chain against planes that hold it, step by step: at the price of a few small systems, and right to some micrometres.
 
 use super::free::pose;
+use super::lightly::{lightly, softness};
 use super::modes::{Layout, Units};
-use super::newton::{Held, Near, Unknowns, nearby};
+use super::newton::{Held, Unknowns, nearby};
+use super::shape::Shape;
 use super::{Bends, Contact, Rod, configuration};
 use crate::model::{Mat3, Pose, Vec3};
 use nalgebra::DVector;
@@ -40,12 +42,12 @@ impl Pressed {
 
     /// The end disk of every segment, each in the frame of the one below it, at the next step of the way. `None` where no equilibrium is found.
     pub fn next(&mut self, bends: &[Bends]) -> Option<Vec<Pose>> {
-        let mut near = self.solve(bends)?;
-        while let Some(place) = (0..self.pushing).find(|&place| near.at.forces[place] < 0.0) {
+        let (mut at, mut shape) = self.solve(bends)?;
+        while let Some(place) = (0..self.pushing).find(|&place| at.forces[place] < 0.0) {
             self.held.remove(place);
             self.pushing -= 1;
-            self.start = Unknowns { x: near.at.x, forces: near.at.forces.remove_row(place) };
-            near = self.solve(bends)?;
+            self.start = Unknowns { x: at.x, forces: at.forces.remove_row(place) };
+            (at, shape) = self.solve(bends)?;
         }
         let mut below = Pose { position: Vec3::zeros(), rotation: Mat3::identity() };
         let length = Units::of(&self.rods).length;
@@ -55,11 +57,11 @@ impl Pressed {
                 disks.push(pose(rod.length, configuration(own)));
                 continue;
             }
-            let mut end = near.shape.ends[self.layout.last_piece(segment)];
+            let mut end = shape.ends[self.layout.last_piece(segment)];
             if let Some(rest) = self.layout.rest
                 && segment + 1 == self.layout.segments()
             {
-                let bent = Bends::from_fn(|i, _| own[i] * rest.share + near.at.x[rest.modes[i]] * rest.bend);
+                let bent = Bends::from_fn(|i, _| own[i] * rest.share + at.x[rest.modes[i]] * rest.bend);
                 let above = pose(rest.length, configuration(&bent));
                 end = Pose {
                     position: end.position + end.rotation * above.position,
@@ -73,13 +75,27 @@ impl Pressed {
             });
             below = end;
         }
-        self.start = near.at;
+        self.start = at;
         Some(disks)
     }
 
-    fn solve(&self, bends: &[Bends]) -> Option<Near> {
-        let flat: Vec<f64> = bends[..self.layout.segments()].iter().flat_map(|bends| [bends.x, bends.y]).collect();
-        nearby(&self.layout, &flat, &self.held, self.start.clone())
+    /// How far the last contact's point gives way along its normal while the others hold, per unit of force: in proportion, whatever the
+    /// normal. `None` where it does not.
+    #[must_use]
+    pub fn softness(&self, bends: &[Bends]) -> Option<f64> {
+        softness(&self.layout, &self.flat(bends), &self.held)
+    }
+
+    fn flat(&self, bends: &[Bends]) -> Vec<f64> {
+        bends[..self.layout.segments()].iter().flat_map(|bends| [bends.x, bends.y]).collect()
+    }
+
+    fn solve(&self, bends: &[Bends]) -> Option<(Unknowns, Shape)> {
+        let flat = self.flat(bends);
+        lightly(&self.layout, &flat, &self.held, &self.start).or_else(|| {
+            let near = nearby(&self.layout, &flat, &self.held, self.start.clone())?;
+            Some((near.at, near.shape))
+        })
     }
 }
 

@@ -3,6 +3,7 @@
 //! R′ = R \[u\]×, p′ = R e₃. On each piece R = R₀ e^\[Ω\]×, with Ω′ = v + ½ Ω × v + c(|Ω|) Ω × (Ω × v).
 
 use super::modes::Layout;
+use crate::model::orientation::from_vector;
 use crate::model::special::Angle;
 use crate::model::{Mat3, Pose, Vec3};
 
@@ -34,13 +35,13 @@ pub(super) fn shape(layout: &Layout, factors: &[f64]) -> Option<Shape> {
     for (piece, curvatures) in layout.pieces.iter().zip(curvatures.chunks_exact(count)) {
         let steps: Vec<Vec3> = curvatures.iter().map(|u| u * piece.length).collect();
         let (vectors, end) = rotation_vectors(&layout.gauss, &steps)?;
-        let rotations: Vec<Mat3> = vectors.iter().map(|vector| base.rotation * exponential(vector)).collect();
+        let rotations: Vec<Mat3> = vectors.iter().map(|vector| base.rotation * from_vector(vector)).collect();
         let tangents: Vec<Vec3> = rotations.iter().map(|rotation| rotation.column(2) * piece.length).collect();
         let positions = layout.gauss.until.iter().map(|row| base.position + sum(row, &tangents));
         shape.positions.extend(positions);
         base = Pose {
             position: base.position + sum(&layout.gauss.weights, &tangents),
-            rotation: base.rotation * exponential(&end),
+            rotation: base.rotation * from_vector(&end),
         };
         shape.rotations.extend(rotations);
         shape.ends.push(base);
@@ -53,8 +54,8 @@ pub(super) fn advance(gauss: &super::gauss::Gauss, base: &Pose, length: f64, cur
     let steps: Vec<Vec3> = curvatures.iter().map(|u| u * length).collect();
     let (vectors, end) = rotation_vectors(gauss, &steps)?;
     let tangents: Vec<Vec3> =
-        vectors.iter().map(|vector| (base.rotation * exponential(vector)).column(2) * length).collect();
-    Some(Pose { position: base.position + sum(&gauss.weights, &tangents), rotation: base.rotation * exponential(&end) })
+        vectors.iter().map(|vector| (base.rotation * from_vector(vector)).column(2) * length).collect();
+    Some(Pose { position: base.position + sum(&gauss.weights, &tangents), rotation: base.rotation * from_vector(&end) })
 }
 
 /// Curvature at each node, in the frame of its cross section.
@@ -101,13 +102,6 @@ fn twice(x: f64) -> f64 {
     if x == 0.0 { 1.0 / 12.0 } else { half.sinc_drop() / (4.0 * half.sine()) }
 }
 
-/// e^\[Ω\]×.
-fn exponential(vector: &Vec3) -> Mat3 {
-    let angle = Angle::new(vector.norm());
-    let cross = vector.cross_matrix();
-    Mat3::identity() + cross * angle.sinc() + cross * cross * angle.versinc()
-}
-
 pub(super) fn sum(weights: &[f64], values: &[Vec3]) -> Vec3 {
     weights.iter().zip(values).fold(Vec3::zeros(), |sum, (weight, value)| sum + value * *weight)
 }
@@ -135,7 +129,7 @@ mod tests {
     #[test]
     fn the_exponential_is_a_rotation_about_its_vector() {
         let vector = Vec3::new(0.3, -1.2, 0.7);
-        let rotation = exponential(&vector);
+        let rotation = from_vector(&vector);
         assert!((rotation * rotation.transpose() - Mat3::identity()).amax() < 4e-16);
         assert!((rotation * vector - vector).amax() < 4e-16);
         assert!((rotation.trace() - 1.0 - 2.0 * libm::cos(vector.norm())).abs() < 1e-15);

@@ -1,6 +1,7 @@
 //! What a person sets of an experiment with several segments.
 
 use crate::model::chain::Torsion;
+use crate::model::chain::path::Stands;
 use crate::scenario::motion::from_rest_to_rest;
 use crate::scenario::{Motion, Plan, Scenario, ScenarioError, motion};
 
@@ -45,30 +46,6 @@ pub struct ChainContact {
     pub stands: Stands,
 }
 
-/// Where a contact of a chain stands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Stands {
-    /// A plane with this unit normal in {B}, away from the robot's side, and offset (m); always.
-    Always {
-        /// n in {B}.
-        normal: [f64; 3],
-        /// n·p, m.
-        offset: f64,
-    },
-    /// A plane that holds from a time (s) on, where the backbone is then; n is turned by `tilt` (rad) about the tangent from the bending plane.
-    From {
-        /// s.
-        time: f64,
-        /// rad.
-        tilt: f64,
-    },
-    /// A clamp from a time (s) on.
-    Clamped {
-        /// s.
-        time: f64,
-    },
-}
-
 /// Which end disks carry trackers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Tracked {
@@ -82,7 +59,7 @@ pub enum Tracked {
 /// Thresholds of the screw motion deviation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Smd {
-    /// Of the distance of the screw axes at the end disk, m.
+    /// Of the distance of the screw axes at the disk below, m.
     pub distance: f64,
     /// Of the angle between them, rad.
     pub angle: f64,

@@ -1,8 +1,8 @@
 //! An experiment with several segments, resolved: what follows cannot fail.
 
-use super::inputs::{ChainContact, ChainScenario, ChainSegment, Stands};
+use super::inputs::{ChainContact, ChainScenario, ChainSegment};
 use crate::model::Configuration;
-use crate::model::chain::path::{self, Path, Plane};
+use crate::model::chain::path::{Path, Plane, Stands};
 use crate::model::chain::{Bends, Rod, Unsettled, bends, stiffnesses};
 use crate::model::configuration::bend_from_theta_l;
 use crate::scenario::TrueRobot;
@@ -147,10 +147,8 @@ fn plane(contact: &ChainContact, robot: &Robot) -> Plane {
     let nominal = robot.segments[segment].alone.scenario().robot.length;
     let length = robot.truths[segment].segment().length;
     let at = if at == nominal { length } else { at.min(length) };
-    let stands = match stands {
-        Stands::Always { normal, offset } => path::Stands::Always { normal: normal.into(), offset },
-        Stands::From { time, tilt } => path::Stands::From { time, delta: robot.commanded(segment, time).delta(), tilt },
-        Stands::Clamped { time } => path::Stands::Clamped { time },
+    let (Stands::From { time, .. } | Stands::Clamped { time }) = stands else {
+        return Plane { segment, at, delta: 0.0, stands };
     };
-    Plane { segment, at, stands }
+    Plane { segment, at, delta: robot.commanded(segment, time).delta(), stands }
 }

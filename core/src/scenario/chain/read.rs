@@ -1,8 +1,8 @@
 //! Reading experiments with several segments from TOML: [[segment]], [[contact]], and what is common to all.
 
 use super::group::{Group, parsed, text, whole};
-use super::inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Stands, Tracked, seed_of};
-use super::{ABOVE_BASE, AT_END, ChainError, Fault, MOST, NORMAL, UNIT, between, torsion};
+use super::inputs::{ChainContact, ChainScenario, ChainSegment, Smd, Tracked, seed_of};
+use super::{ABOVE_BASE, AT_END, ChainError, Fault, MOST, NORMAL, Stands, UNIT, between, torsion};
 use crate::model::configuration::bend_from_theta_l;
 use crate::scenario::keys::allowed::Limit;
 use crate::scenario::keys::{Allowed, Quantity, Value};
@@ -252,7 +252,7 @@ fn stands(group: &Group, segment: &ChainSegment) -> Result<Stands, ChainError> {
             return Err(group.refuse_as_written("normal", Quantity::Count, Allowed::Need(NORMAL)));
         }
         let offset = group.number("offset", Quantity::Length, between(-1e3, 1e3), None)?;
-        return Ok(Stands::Always { normal: normal.normalize().into(), offset });
+        return Ok(Stands::Always { normal: normal.normalize(), offset });
     }
     let end = segment.motion().end;
     let time = if given[0] {

@@ -289,7 +289,7 @@ pub fn along(run: &ChainRun, placed: &[(usize, &ChainEstimate)], time: f64) -> P
     let total = bases.last().copied().unwrap_or(0.0);
     let x = Axis { range: Some([0.0, total]), ..Axis::new("Arc length from the base", "m", "mm", MILLI) };
     let mut panel =
-        Panel { title: "Where along the backbone".into(), ..Panel::new(x, Axis::new("p", "1/m", "1/mm", 1e-3)) };
+        Panel { title: "Where along the backbone".into(), ..Panel::new(x, Axis::new("density", "1/m", "1/mm", 1e-3)) };
     let mut highest = 0.0_f64;
     for (number, (found, estimate)) in placed.iter().enumerate() {
         let mut points: Vec<[f64; 2]> = Vec::new();

@@ -10,6 +10,8 @@ pub struct Plane {
     pub segment: usize,
     /// Arc length of the point from that segment's base, m.
     pub at: f64,
+    /// Bending-plane angle δ of the segment when the plane comes to stand, rad: where its tilt is counted from.
+    pub delta: f64,
     /// Where it stands.
     pub stands: Stands,
 }
@@ -17,19 +19,17 @@ pub struct Plane {
 /// Where a plane stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stands {
-    /// With this unit normal n in {B} and offset n·p (m), from the first instant on.
+    /// With this unit normal n in {B}, away from the robot's side, and offset n·p (m), from the first instant on.
     Always {
-        /// Away from the robot's side.
+        /// n in {B}.
         normal: Vec3,
-        /// m.
+        /// n·p, m.
         offset: f64,
     },
     /// From a time on, where the point is then. The tangent there lies in the plane, and n points to where the point moves.
     From {
         /// s.
         time: f64,
-        /// Bending-plane angle δ of the segment then, rad.
-        delta: f64,
         /// Angle (rad) by which n is turned about the tangent from the bending plane.
         tilt: f64,
     },
@@ -65,14 +65,14 @@ impl Plane {
             }
             moving => moving,
         };
-        (place > 0.0).then_some(Self { segment, at: place, stands })
+        (place > 0.0).then_some(Self { segment, at: place, stands, ..*self })
     }
 
     /// Normal and offset of a plane that comes to stand where its point is, which moves with a velocity: none for another.
     pub(super) fn placed(&self, point: &Pose, velocity: &Vec3) -> Option<(Vec3, f64)> {
-        let Stands::From { delta, tilt, .. } = self.stands else { return None };
+        let Stands::From { tilt, .. } = self.stands else { return None };
         // The bend is toward (cos δ, −sin δ, 0) of the cross section.
-        let (sin, cos) = sincos(tilt - delta);
+        let (sin, cos) = sincos(tilt - self.delta);
         let normal = point.rotation * Vec3::new(cos, sin, 0.0);
         let normal = if normal.dot(velocity) < 0.0 { -normal } else { normal };
         Some((normal, normal.dot(&point.position)))

@@ -30,7 +30,7 @@ const STRAIGHT: [(f64, f64); 3] = [(0.0, 0.0), (0.0, 1.0), (0.0, -0.8)];
 const BENT: [(f64, f64); 3] = [(0.6, 0.3), (0.5, 1.0), (0.7, -0.8)];
 
 fn from(segment: usize, time: f64, delta: f64, tilt: f64) -> Plane {
-    Plane { segment, at: 0.015, stands: Stands::From { time, delta, tilt } }
+    Plane { segment, at: 0.015, delta, stands: Stands::From { time, tilt } }
 }
 
 /// Compares a path with shapes that are looked for anew.
@@ -141,7 +141,7 @@ fn a_plane_that_stands_from_the_start_is_met_and_left_as_the_chain_goes_there_an
         let share = rest_to_rest(0.0, 1.0, 0.0, 3.0, time) - rest_to_rest(0.0, 1.0, 3.5, 6.5, time);
         vec![Bends::new(0.1 * share, 0.4 * share), Bends::new(0.0, 0.3 * share), Bends::new(-0.2 * share, 0.3 * share)]
     };
-    let plane = Plane { segment: 2, at: 0.03, stands: Stands::Always { normal: Vec3::x(), offset: 0.03 } };
+    let plane = Plane { segment: 2, at: 0.03, delta: 0.0, stands: Stands::Always { normal: Vec3::x(), offset: 0.03 } };
     let path = Path::new(&rods, &course, &[0.0, 3.0, 3.5, 6.5, 7.0], &[plane]).expect("begins free");
     let what: Vec<What> = path.happened().iter().map(|event| event.what).collect();
     assert_eq!(what, [What::Met(0), What::Opened(0)], "{:?}", path.happened());
@@ -176,7 +176,7 @@ fn one_segment_in_its_plane_is_as_the_elastic_segment_has_it() {
 fn a_course_that_begins_beyond_a_plane_begins_pressed() {
     let rods = robot(Torsion::Ratio(5.0));
     let course = |time: f64| vec![Bends::new(0.0, 0.5 - 0.1 * time), Bends::new(0.0, 0.2), Bends::new(0.0, 0.3)];
-    let plane = Plane { segment: 1, at: 0.02, stands: Stands::Always { normal: Vec3::x(), offset: 0.01 } };
+    let plane = Plane { segment: 1, at: 0.02, delta: 0.0, stands: Stands::Always { normal: Vec3::x(), offset: 0.01 } };
     let path = Path::new(&rods, &course, &[0.0, 2.0, 5.0], &[plane]).expect("a stable shape");
     assert_eq!(path.happened()[0], Happened { time: 0.0, what: What::Met(0) });
     against_settled(&rods, &course, &path, &[plane]);
@@ -189,7 +189,7 @@ fn a_clamp_keeps_what_is_below_and_lets_the_rest_bend_on() {
     let bend = |time: f64| rest_to_rest(0.2, 1.2, 1.0, 6.0, time);
     let course =
         |time: f64| vec![Bends::new(0.1, 0.3), Bends::new(0.0, bend(time)), Bends::new(0.0, 0.1 + 0.3 * bend(time))];
-    let clamp = Plane { segment: 1, at: 0.015, stands: Stands::Clamped { time: 3.0 } };
+    let clamp = Plane { segment: 1, at: 0.015, delta: 0.0, stands: Stands::Clamped { time: 3.0 } };
     let path = Path::new(&rods, &course, &KNOTS, &[clamp]).expect("begins free");
     assert_eq!(path.happened(), [Happened { time: 3.0, what: What::Met(0) }]);
     for time in [2.9, 3.0, 3.1, 4.0, 7.0] {
