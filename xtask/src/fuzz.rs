@@ -4,7 +4,7 @@ use crate::run::{root, target};
 use crate::tools;
 use anyhow::{Context, Result, bail};
 use clap::Args;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 /// Options of `cargo xtask fuzz`.
