@@ -17,7 +17,7 @@ use centrode_core::study::chain::ChainRun;
 use centrode_core::study::chain::course;
 
 /// Times after an alarm at which a contact is placed, s.
-pub const AFTER: [f64; 5] = [0.0, 0.1, 0.25, 0.5, 1.0];
+pub const AFTER: [f64; 3] = [0.1, 0.5, 1.0];
 
 /// A contact that is told, with what is known of it so far.
 #[derive(Debug, Clone)]
