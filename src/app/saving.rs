@@ -238,7 +238,7 @@ impl App {
             }
             (Format::Json, Subject::Chain) => {
                 let memo = self.chained().ok_or(UNDONE)?;
-                let mut report = memo.run().report(memo.teller(), &chain::memo::AFTER);
+                let mut report = memo.run().report(memo.teller(), chain::memo::after(memo.scenario()));
                 report.log = memo.about().cloned();
                 let text = serde_json::to_string_pretty(&report).map_err(|error| error.to_string())?;
                 Ok(text + "\n")

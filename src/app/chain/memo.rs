@@ -9,7 +9,7 @@ use crate::app::stages::viewport::subject::Subject;
 use centrode_core::detect::chain::{ChainContactFound, ChainEstimate, ChainMethod};
 use centrode_core::model::chain::Unsettled;
 use centrode_core::model::chain::path::What;
-use centrode_core::scenario::chain::ChainDraft;
+use centrode_core::scenario::chain::{ChainDraft, Tracked};
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
 use centrode_core::study::about::ChainAbout;
@@ -17,14 +17,23 @@ use centrode_core::study::chain::ChainRun;
 use centrode_core::study::chain::course;
 
 /// Times after an alarm at which a contact is placed, s.
-pub const AFTER: [f64; 3] = [0.1, 0.5, 1.0];
+const AFTER: [f64; 3] = [0.1, 0.5, 1.0];
+
+/// Those at which one of an experiment is placed: once where only the last disk carries a tracker, for that takes long.
+#[must_use]
+pub fn after(scenario: &ChainScenario) -> &'static [f64] {
+    match scenario.tracked {
+        Tracked::All => &AFTER,
+        Tracked::Tip => &AFTER[1..2],
+    }
+}
 
 /// A contact that is told, with what is known of it so far.
 #[derive(Debug, Clone)]
 pub struct Told {
     /// Its alarm, and which disks deviate.
     pub found: ChainContactFound,
-    /// What is known at each of [`AFTER`]; none where the run or the contact ends before, or it cannot be placed.
+    /// What is known at each of [`after`]; none where the run or the contact ends before, or it cannot be placed.
     pub estimates: Vec<Option<ChainEstimate>>,
 }
 
@@ -123,13 +132,14 @@ impl Memo {
             return self.is_working();
         };
         let Some(teller) = self.teller else { return false };
-        let due = |told: &Told| told.estimates.len() < AFTER.len();
+        let times = after(&self.ran.scenario);
+        let due = |told: &Told| told.estimates.len() < times.len();
         let seen = told.iter().rposition(|told| due(told) && told.found.alarm <= time);
         let Some(place) = seen.or_else(|| told.iter().position(due)) else { return false };
         // What is read once the next contact has begun says nothing of this one alone.
         let next = told.get(place + 1).map_or(f64::INFINITY, |next| next.found.alarm);
         let one = &mut told[place];
-        let after = AFTER[one.estimates.len()];
+        let after = times[one.estimates.len()];
         let made = (one.found.alarm + after < next).then(|| self.ran.run.judged.estimate(teller, &one.found, after));
         one.estimates.push(made.flatten());
         self.is_working()
@@ -138,7 +148,7 @@ impl Memo {
     /// Whether contacts are still to be found or placed.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        let due = |told: &Told| told.estimates.len() < AFTER.len();
+        let due = |told: &Told| told.estimates.len() < after(&self.ran.scenario).len();
         self.told.as_ref().is_none_or(|told| told.iter().any(due))
     }
 
