@@ -3,7 +3,7 @@
 use crate::metadata::{Edges, Metadata, Package, numbers};
 use crate::run::{cargo, output, run, target};
 use anyhow::{Context as _, Result, bail};
-use std::path::PathBuf;
+use std::path::{MAIN_SEPARATOR, PathBuf};
 use std::process::Command;
 use std::{env, fs};
 
@@ -25,8 +25,10 @@ pub fn check() -> Result<()> {
     USED.iter().try_for_each(|name| oldest(&metadata, metadata.ours(name)?))
 }
 
-/// Removes what earlier runs unpacked. Cargo knows it by name and version alone, and would compile the package above with an old one below it.
+/// Removes what earlier runs unpacked and compiled. Cargo knows it by name and version alone, and would compile the package above with an old
+/// one below it.
 fn forget(metadata: &Metadata) -> Result<()> {
+    forget_compiled()?;
     let own = || env::home_dir().map(|home| home.join(".cargo"));
     let Some(home) = env::var_os("CARGO_HOME").map(PathBuf::from).or_else(own) else { return Ok(()) };
     let Ok(registries) = fs::read_dir(home.join("registry").join("src")) else { return Ok(()) };
@@ -38,6 +40,29 @@ fn forget(metadata: &Metadata) -> Result<()> {
             if old.is_dir() {
                 fs::remove_dir_all(&old).with_context(|| format!("cannot remove {}", old.display()))?;
             }
+        }
+    }
+    Ok(())
+}
+
+/// Removes what tells cargo that a package was compiled, where it was one that a run had unpacked.
+fn forget_compiled() -> Result<()> {
+    let debug = target().join("debug");
+    let (Ok(known), Ok(files)) = (fs::read_dir(debug.join(".fingerprint")), fs::read_dir(debug.join("deps"))) else {
+        return Ok(());
+    };
+    let is_unpacked =
+        |file: &PathBuf| fs::read_to_string(file).is_ok_and(|text| text.contains(&format!("src{MAIN_SEPARATOR}-")));
+    let lists = files.flatten().map(|file| file.path()).filter(|file| file.extension().is_some_and(|end| end == "d"));
+    let ours = lists.filter(|file| file.file_name().is_some_and(|name| name.to_string_lossy().starts_with("centrode")));
+    let unpacked: Vec<String> = ours
+        .filter(is_unpacked)
+        .filter_map(|file| Some(file.file_stem()?.to_str()?.rsplit_once('-')?.1.to_owned()))
+        .collect();
+    for one in known.flatten() {
+        let name = one.file_name().to_string_lossy().into_owned();
+        if name.rsplit_once('-').is_some_and(|(_, hash)| unpacked.iter().any(|of| of == hash)) {
+            fs::remove_dir_all(one.path()).with_context(|| format!("cannot remove {}", one.path().display()))?;
         }
     }
     Ok(())

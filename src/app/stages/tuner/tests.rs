@@ -73,7 +73,8 @@ fn a_helper_that_fails_has_one_other_take_its_place() {
     let mut alone = Tuner::new(None);
     alone.update(Some(&bench()), 3, false);
     finish(&mut alone);
-    assert_eq!(alone.own(Rule::Fcd), tuner.own(Rule::Fcd));
+    // As text: without a false alarm their mean time is NaN.
+    assert_eq!(format!("{:?}", alone.own(Rule::Fcd)), format!("{:?}", tuner.own(Rule::Fcd)));
 }
 
 #[test]
