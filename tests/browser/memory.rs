@@ -69,10 +69,10 @@ fn stays_as_large(renderer: Renderer, round: usize) {
 
 #[test]
 fn a_page_at_work_stays_as_large_on_webgl() {
-    stays_as_large(Renderer::WebGl, 3);
+    stays_as_large(Renderer::WebGl, 2);
 }
 
 #[test]
 fn a_page_at_work_stays_as_large_on_webgpu() {
-    stays_as_large(Renderer::WebGpu, 2);
+    stays_as_large(Renderer::WebGpu, 1);
 }

@@ -1,14 +1,15 @@
 //! A storm of random input: whatever is clicked, dragged, typed and resized, the page keeps running, what stands beside the canvas for
 //! screen readers says what is on it, and the address holds the run that is shown.
 //!
-//! The same seed makes the same choices. `CENTRODE_STORM=7 cargo xtask test --dev browser -- engines::` makes another storm than usual.
+//! The same seed makes the same choices. `CENTRODE_STORM=7 cargo xtask test --dev browser -- engines::` makes another storm than usual,
+//! `CENTRODE_STORM=7x200` one of 200 things done.
 
 use crate::harness::{Page, WIDGETS, Widget};
 use serde_json::json;
 use std::collections::BTreeSet;
 
 /// How much is done.
-const ACTIONS: usize = 25;
+const ACTIONS: usize = 12;
 /// A seed as good as any.
 const SEED: u64 = 15;
 const SIZES: [[u32; 2]; 4] = [[1280, 800], [1000, 640], [640, 900], [1400, 960]];
@@ -49,12 +50,15 @@ impl Dice {
 
 #[track_caller]
 pub fn a_storm_of_input(page: &mut Page) {
-    let seed = std::env::var("CENTRODE_STORM").map_or(SEED, |text| text.parse().expect("a whole number"));
+    let asked = std::env::var("CENTRODE_STORM").unwrap_or_else(|_| SEED.to_string());
+    let (seed, actions) = asked.split_once('x').unwrap_or((&asked, ""));
+    let seed: u64 = seed.parse().expect("a whole number");
+    let actions = if actions.is_empty() { ACTIONS } else { actions.parse().expect("a whole number behind x") };
     println!("the seed of this storm: {seed}");
     page.eval(SHELTER);
     let mut dice = Dice(seed);
     let mut done = Vec::new();
-    for _ in 0..ACTIONS {
+    for _ in 0..actions {
         let sight = look(page);
         assert_eq!(sight.face, "running", "after {done:#?}: {}", page.text("#failed"));
         done.push(act(page, &sight, &mut dice));
