@@ -120,6 +120,8 @@ fn a_host_of_another_origin_is_heard_when_it_is_listed() {
     let elsewhere = base.replace("127.0.0.1", "localhost");
     assert_ne!(elsewhere, base);
     page.browse(&format!("{elsewhere}examples/embed.html"));
+    // The example's own frame: were it still starting, its "ready" would be taken for that of the frame that follows.
+    wait_for(&mut page, "ready");
     let origin = page.eval("location.origin");
     point(&mut page, &format!("{base}?embed=plots&origins=https://a.example,{}", origin.as_str().expect("an origin")));
     wait_for(&mut page, "ready");
