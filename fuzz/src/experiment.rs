@@ -8,15 +8,17 @@ use centrode_core::scenario::keys::{Allowed, KEYS, Key, Value};
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::{Plan, Scenario};
 use centrode_core::study::chain::ChainRun;
+use std::sync::LazyLock;
 
 /// Longer runs (samples) are run at a lower rate.
-const MOST: f64 = 250.0;
+const MOST: f64 = 120.0;
 /// Channels without which nothing is: all that comes before what detectors make of it.
 const MEASURED: usize = 19;
 
-/// One segment.
+/// One segment. The first byte says what is compared in the end.
 pub fn run(bytes: &[u8]) {
-    let mut bytes = Bytes(bytes);
+    let Some((&way, rest)) = bytes.split_first() else { return };
+    let mut bytes = Bytes(rest);
     let scenario = shortened(chosen(&mut bytes));
     let Ok(plan) = Plan::new(&scenario) else { return };
     let run = Run::new(plan);
@@ -39,13 +41,19 @@ pub fn run(bytes: &[u8]) {
             assert!((0.0..=scenario.robot.length).contains(&found.location) && !found.distance.is_nan(), "{found:?}");
         }
     }
-    relations::hold(&scenario);
+    relations::hold(&scenario, way);
 }
+
+/// The experiments that are shipped, with few samples.
+static SLOW: LazyLock<Vec<ChainDraft>> = LazyLock::new(|| {
+    let slow = |preset| ChainDraft::of(preset).overridden(["loop_rate=10", "filter.length=10"]);
+    CHAINS.iter().map(|preset| slow(preset).expect("possible")).collect()
+});
 
 /// Several segments: one of the experiments that are shipped, with some values changed.
 pub fn chain(bytes: &[u8]) {
     let mut bytes = Bytes(bytes);
-    let mut draft = ChainDraft::of(&CHAINS[bytes.below(CHAINS.len())]);
+    let mut draft = SLOW[bytes.below(CHAINS.len())].clone();
     for _ in 0..bytes.below(6) {
         let line = changed(&mut bytes);
         if let Ok(other) = draft.overridden([line.as_str()]) {
@@ -53,12 +61,12 @@ pub fn chain(bytes: &[u8]) {
         }
     }
     let Ok(scenario) = draft.scenario() else { return };
-    let rate = (MOST / scenario.common().motion.end).min(10.0);
-    let Ok(scenario) = scenario.at_rate(rate) else { return };
     let Ok(plan) = ChainPlan::new(&scenario) else { return };
     let run = ChainRun::new(plan);
-    let report = run.report(None, &[]);
-    assert!(report.end.is_finite());
+    // Contacts are placed at one input in eight: that takes as long as all else.
+    if bytes.below(8) == 0 {
+        assert!(run.report(None, &[]).end.is_finite());
+    }
     for event in &run.judged.events {
         assert!(event.raised.is_finite() && event.segment < scenario.segments.len(), "{event:?}");
     }

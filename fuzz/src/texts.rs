@@ -5,6 +5,7 @@ use centrode_core::scenario::link::Link;
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::text::Draft;
 use centrode_core::scenario::{Override, Plan, Scenario};
+use std::sync::LazyLock;
 
 /// A scenario's file, of one segment or of several.
 pub fn scenario(bytes: &[u8]) {
@@ -20,6 +21,9 @@ pub fn scenario(bytes: &[u8]) {
     let _ = Plan::new(&scenario);
 }
 
+/// What values of keys change.
+static THREE: LazyLock<ChainDraft> = LazyLock::new(|| ChainDraft::of(&CHAINS[0]));
+
 /// Values of keys, a line each, as `--set` takes them: for one segment and for several.
 pub fn overrides(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
@@ -30,11 +34,12 @@ pub fn overrides(bytes: &[u8]) {
         read.apply(&mut scenario);
     }
     let _ = Plan::new(&scenario);
-    let mut draft = ChainDraft::of(&CHAINS[0]);
-    for line in text.lines().take(8) {
-        let Ok(changed) = draft.overridden([line]) else { continue };
-        written_again(&changed);
-        draft = changed;
+    let chain = text.lines().take(8).fold(None, |draft: Option<ChainDraft>, line| {
+        let changed = draft.as_ref().unwrap_or(&THREE).overridden([line]);
+        changed.ok().or(draft)
+    });
+    if let Some(draft) = chain {
+        written_again(&draft);
     }
 }
 

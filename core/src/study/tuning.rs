@@ -222,10 +222,10 @@ impl Study {
     }
 
     /// Takes over the tally of one batch that was counted elsewhere, unless it says less. Returns whether it fits: one of
-    /// another batch or of other thresholds is left.
+    /// another batch or of other thresholds, or that no runs can have come to, is left.
     pub fn set(&mut self, batch: usize, tally: Tally) -> bool {
         let Some(batch) = self.batches.get_mut(batch) else { return false };
-        batch.set(tally)
+        tally.runs <= self.spec.repeats as u64 && batch.set(tally)
     }
 
     /// The batch to go on with among those wanted, so that cells are known one after the other, each with and without

@@ -80,7 +80,7 @@ impl ChainLink {
     /// is possible.
     pub(super) fn take(&mut self, mut given: Vec<(String, String)>) -> Vec<(String, String, Why)> {
         let mut refused = Vec::new();
-        loop {
+        while !given.is_empty() {
             let all = |without: Option<usize>| {
                 let kept = given.iter().enumerate().filter(move |(place, _)| Some(*place) != without);
                 let texts: Vec<String> = kept.map(|(_, (key, value))| format!("{key}={value}")).collect();
@@ -99,14 +99,14 @@ impl ChainLink {
                 self.draft.overridden([format!("{key}={value}").as_str()])
             };
             let places = || 0..given.len();
-            let culprit = places()
+            let place = places()
                 .find(|&place| all(Some(place)).is_ok())
                 .or_else(|| places().find(|&place| alone(place).is_err()))
-                .or_else(|| given.len().checked_sub(1));
-            let Some(place) = culprit else { return refused };
+                .unwrap_or(given.len() - 1);
             let why = alone(place).err().unwrap_or(error);
             let (key, value) = given.remove(place);
             refused.push((format!("{BEFORE}{key}"), value, Why::Chain(why)));
         }
+        refused
     }
 }

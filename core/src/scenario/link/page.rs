@@ -234,12 +234,15 @@ impl Page {
         Self { view, ..Self::default() }
     }
 
-    /// What differs from the default.
+    /// What differs from the default, and the view where it would be guessed.
     pub(super) fn changes(&self) -> impl Iterator<Item = (&'static PageKey, Value)> {
         let default = Self::default();
+        // A link with several segments that is silent about the view shows them.
+        let guessed = self.chain.is_some();
         PAGE_KEYS.iter().filter_map(move |key| {
             let value = (key.get)(self)?;
-            ((key.get)(&default).as_ref() != Some(&value)).then_some((key, value))
+            let said = guessed && key.name == "view" || (key.get)(&default).as_ref() != Some(&value);
+            said.then_some((key, value))
         })
     }
 

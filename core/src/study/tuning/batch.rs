@@ -41,10 +41,10 @@ impl Batch {
         self.tidy();
     }
 
-    /// Takes over a tally that was counted elsewhere, unless it says less. Returns whether it fits: one of other thresholds is
-    /// left.
+    /// Takes over a tally that was counted elsewhere, unless it says less. Returns whether it fits: one of other thresholds, or
+    /// that no runs can have come to, is left.
     pub fn set(&mut self, tally: Tally) -> bool {
-        let fits = self.fits(&tally);
+        let fits = self.fits(&tally) && tally.is_of(tally.runs, &self.clock);
         if fits && tally.runs > self.tally.runs {
             self.tally = tally;
             self.tidy();
