@@ -1,5 +1,5 @@
-//! How well contacts on three segments are told and placed: many runs of the preset `three-segments` with contacts around the middle of each
-//! segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md; `-- 200 tip` those of one case.
+//! How well contacts on three segments are told and placed: many runs of the presets `three-segments` and `two-contacts` with contacts
+//! around the middle of each segment. `cargo run --release --example chain_contacts -- 200` prints the figures of docs/CHAIN.md; `-- 200 tip` those of one case.
 
 #![allow(clippy::disallowed_methods, clippy::disallowed_types, reason = "an example reads its arguments and its clock")]
 
@@ -16,15 +16,17 @@ use std::time::{Duration, Instant};
 
 /// Times after the alarm, s.
 const AFTER: [f64; 3] = [0.1, 0.25, 0.5];
-/// When the contact begins, s.
-const CONTACT: f64 = 5.8;
 /// Probabilities between which runs are put together.
 const GROUPS: [f64; 6] = [0.0, 0.5, 0.7, 0.9, 0.99, 1.0 + 1e-9];
 
 /// Runs of one kind.
+#[derive(Clone, Copy)]
 struct Case {
     name: &'static str,
     title: &'static str,
+    preset: &'static str,
+    /// Which of its contacts is asked for, and when that begins, s.
+    contact: (usize, f64),
     sets: &'static [&'static str],
     /// Whether planes stand with any tilt, each as likely as the others.
     tilted: bool,
@@ -39,9 +41,13 @@ const STILL: [&str; 4] = [
     "contact[1].kind=clamp",
 ];
 
-const CASES: [Case; 7] = [
-    Case { name: "all", title: "all disks", sets: &[], tilted: false },
-    Case { name: "play", title: "all disks, 0.3° of play", sets: &[PLAY], tilted: false },
+const ALL: Case =
+    Case { name: "all", title: "all disks", preset: "three-segments", contact: (0, 5.8), sets: &[], tilted: false };
+const TWO: Case = Case { preset: "two-contacts", ..ALL };
+
+const CASES: [Case; 9] = [
+    ALL,
+    Case { name: "play", title: "all disks, 0.3° of play", sets: &[PLAY], ..ALL },
     Case {
         name: "errors",
         title: "all disks, 2 % of length, 1° of frame, 2° of δ (drawn)",
@@ -51,12 +57,14 @@ const CASES: [Case; 7] = [
             "calibration.frame_turn=[0.0174532925, 0.0174532925, 0.0174532925]",
             "calibration.delta=0.034906585",
         ],
-        tilted: false,
+        ..ALL
     },
-    Case { name: "tilted", title: "all disks, planes of any tilt", sets: &[], tilted: true },
-    Case { name: "clamped", title: "all disks, clamps where what is below rests", sets: &STILL, tilted: false },
-    Case { name: "tip", title: "the tip alone", sets: &[TIP], tilted: false },
-    Case { name: "tip-play", title: "the tip alone, 0.3° of play", sets: &[TIP, PLAY], tilted: false },
+    Case { name: "tilted", title: "all disks, planes of any tilt", tilted: true, ..ALL },
+    Case { name: "clamped", title: "all disks, clamps where what is below rests", sets: &STILL, ..ALL },
+    Case { name: "first", title: "all disks, the first of two contacts", contact: (0, 5.2), ..TWO },
+    Case { name: "second", title: "all disks, the second of two contacts", contact: (1, 6.8), ..TWO },
+    Case { name: "tip", title: "the tip alone", sets: &[TIP], ..ALL },
+    Case { name: "tip-play", title: "the tip alone, 0.3° of play", sets: &[TIP, PLAY], ..ALL },
 ];
 
 /// What was told of a contact some time after its alarm.
@@ -74,27 +82,29 @@ struct Told {
 /// What one run came to.
 struct Outcome {
     segment: usize,
-    /// Whether there was an alarm before the contact, or none.
+    /// Whether there was an alarm before the contact, or none of it.
     early: bool,
     told: Vec<Option<Told>>,
     spent: Duration,
 }
 
-fn scenario(sets: &[String]) -> Result<ChainScenario, String> {
-    let preset = find_chain("three-segments").ok_or("no such preset")?;
+fn scenario(preset: &str, sets: &[String]) -> Result<ChainScenario, String> {
+    let preset = find_chain(preset).ok_or("no such preset")?;
     preset.chain(sets).map_err(|error| error.to_string())
 }
 
 fn outcome(seed: u64, case: &Case) -> Result<Outcome, String> {
-    let clamped = case.name == "clamped";
-    let segment = if clamped { 2 } else { (seed % 3) as usize };
     let mut normal = Normal::new(seed, Source::Calibration);
-    let at = 0.015 + 0.005 * normal.symmetric();
-    let tilt = FRAC_PI_2 * normal.symmetric();
+    let mut drawn = || 0.015 + 0.005 * normal.symmetric();
     let mut all: Vec<String> = case.sets.iter().map(|set| (*set).to_owned()).collect();
-    all.push(format!("contact[1].segment={}", segment + 1));
-    let mut scenario = scenario(&all)?.with_seed(seed);
-    scenario.contacts[0].at = at;
+    let (contact, begins) = case.contact;
+    if case.preset == ALL.preset && case.name != "clamped" {
+        all.push(format!("contact[1].segment={}", seed % 3 + 1));
+    }
+    let mut scenario = scenario(case.preset, &all)?.with_seed(seed);
+    scenario.contacts.iter_mut().for_each(|contact| contact.at = drawn());
+    let (segment, at) = (scenario.contacts[contact].segment, scenario.contacts[contact].at);
+    let tilt = FRAC_PI_2 * normal.symmetric();
     if let (true, Stands::From { time, .. }) = (case.tilted, scenario.contacts[0].stands) {
         scenario.contacts[0].stands = Stands::From { time, tilt };
     }
@@ -103,11 +113,11 @@ fn outcome(seed: u64, case: &Case) -> Result<Outcome, String> {
     let begun = Instant::now();
     let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &AFTER);
     let spent = begun.elapsed();
-    let first = found.first();
-    let early = first.is_none_or(|found| found.alarm < CONTACT);
+    let alarm = found.get(contact).filter(|found| found.alarm >= begins);
+    let early = alarm.is_none();
     let truth = at + scenario.segments[..segment].iter().map(|of| of.alone.scenario().robot.length).sum::<f64>();
     let told = AFTER.iter().map(|after| {
-        let estimate = first?.estimates.iter().find(|estimate| estimate.after == *after)?;
+        let estimate = alarm?.estimates.iter().find(|estimate| estimate.after == *after)?;
         Some(Told {
             right: estimate.segment == segment,
             off: estimate.place.mean - at,
@@ -173,7 +183,7 @@ fn show(case: &Case, runs: u64) -> Result<(), String> {
 fn free(runs: u64, title: &str, sets: &[&str]) -> Result<(), String> {
     let alarms = (1..=runs).into_par_iter().map(|seed| {
         let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
-        let scenario = scenario(&sets)?.without_contacts().with_seed(seed);
+        let scenario = scenario(ALL.preset, &sets)?.without_contacts().with_seed(seed);
         let run = ChainRun::new(ChainPlan::new(&scenario).map_err(|error| error.to_string())?);
         Ok::<_, String>(run.judged.events.iter().any(|event| event.detector == ChainMethod::Of(Method::Cusum)))
     });

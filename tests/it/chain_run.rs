@@ -50,12 +50,28 @@ fn contacts_are_told_one_by_one_with_segment_and_place() {
         assert!((estimate["began"].as_f64().expect("began") - time).abs() < 0.03, "{found}");
         let [low, high] = ["low", "high"].map(|key| estimate[key].as_f64().expect(key));
         let [along_low, along_high] = ["along_low", "along_high"].map(|key| estimate[key].as_f64().expect(key));
-        // The interval of a later contact leaves out part of what is not known of the first (docs/CHAIN.md).
-        let beyond = if segment == 2 { 0.0 } else { 0.5 * (high - low) };
-        assert!(low - beyond < 0.015 && 0.015 < high + beyond, "{found}");
+        assert!(low < 0.015 && 0.015 < high, "{found}");
         let base = 0.03 * (segment as f64 - 1.0);
         assert!((along_low - base - low).abs() < 1e-3 && (along_high - base - high).abs() < 1e-3, "{found}");
     }
+}
+
+#[test]
+fn a_second_contact_is_placed_as_if_the_first_were_known() {
+    let mut off = Vec::new();
+    for seed in 2..=6 {
+        let run = run("two-contacts", &[], seed);
+        let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &[0.5]);
+        assert_eq!(found.len(), 2, "seed {seed}");
+        let estimate = &found[1].estimates[0];
+        assert_eq!(estimate.segment, 2, "seed {seed}: {:?}", estimate.probabilities);
+        let width = estimate.place.high - estimate.place.low;
+        assert!((0.2e-3..0.8e-3).contains(&width), "seed {seed}: {:?}", estimate.place);
+        off.push((estimate.place.mean - 0.015) / (0.25 * width));
+    }
+    // In standard deviations. Of five at most one is beyond two, and their mean is not beyond three of its own.
+    let mean = off.iter().sum::<f64>() / off.len() as f64;
+    assert!(off.iter().filter(|off| off.abs() > 2.0).count() <= 1 && mean.abs() < 3.0 / 5_f64.sqrt(), "{off:?}");
 }
 
 #[test]

@@ -8,6 +8,7 @@
 
 mod contacts;
 mod course;
+mod elsewhere;
 mod heard;
 mod hypotheses;
 mod relative;

@@ -259,10 +259,13 @@ pub static TOUR: [Step; STEPS] = [
                says how near that is; at 0 the run ends.",
         task: "Play, or move the time, to the end of the run, and watch the stability margin.",
         noticed: "Here it buckles. A rig would snap aside, and what a model of the plane says of it is no longer true. You have seen it all: try the challenges.",
-        focus: Focus::Robot,
+        focus: Focus::Plots,
         controls: &[],
         // What it shows last is its margin.
-        begin: || and(several("buckling", 4.0), [Some(Command::Chain(Wish::Plot(usize::MAX)))]),
+        begin: || {
+            let margin = [Command::ShowTab(Tab::Plots), Command::Chain(Wish::Plot(usize::MAX))];
+            and(several("buckling", 4.0), margin.map(Some))
+        },
         done: |seen| seen.chain.is_some_and(|memo| memo.gives_way() && seen.time >= memo.end() - 0.02),
     },
 ];

@@ -11,9 +11,12 @@ use super::sheet::Sums;
 use super::{DRIFT, STATES, Six};
 use crate::model::{Mat3, Pose};
 use libm::sqrt;
-use nalgebra::SMatrix;
+use nalgebra::{DMatrix, DVector, SMatrix};
 
 type Square6 = SMatrix<f64, 6, 6>;
+
+/// Directions in which what is known of a contact that holds already may be wrong.
+pub const LOOSE: usize = 3;
 
 /// Something that hears contacts.
 pub trait Listens {
@@ -77,6 +80,20 @@ pub struct Ensemble {
     /// By reading, then by tracker above the first.
     joints: Vec<Vec<Joint>>,
     squares: Vec<f64>,
+    /// What may be wrong, of all of them together.
+    loose: Loose,
+}
+
+/// What is not known beforehand of what else the readings hold: some directions, each with a standard deviation of 1.
+#[derive(Debug, Default)]
+struct Loose {
+    /// What each of them adds to what the trackers hear, whitened: by direction, then by reading from the first, then by tracker.
+    seen: Vec<Vec<Vec<Signature<LOOSE>>>>,
+    /// What the readings say of them: their covariance, and their mean.
+    covariance: DMatrix<f64>,
+    mean: DVector<f64>,
+    /// Logarithm of the likelihood ratio of that mean.
+    evidence: f64,
 }
 
 impl Tracker {
@@ -96,8 +113,9 @@ impl Tracker {
 
     /// The same with other readings.
     #[must_use]
-    pub fn reread(self, history: &History) -> Self {
-        Self { about: about_errors(history, self.calibration[0], history.readings.len()), ..self }
+    pub fn reread(&self, history: &History) -> Self {
+        let about = about_errors(history, self.calibration[0], history.readings.len());
+        Self { about, calibration: self.calibration }
     }
 
     /// The bend that it measures at each reading, rad.
@@ -130,9 +148,65 @@ impl Ensemble {
             joints
         };
         let joints = (0..count).map(at).collect();
-        let mut all = Self { trackers, joints, squares: Vec::new() };
+        let mut all = Self { trackers, joints, squares: Vec::new(), loose: Loose::default() };
         all.squares = (0..count).map(|k| all.square(k)).collect();
         all
+    }
+
+    /// Lets the readings hold, besides what they are heard for, some share of what began at an instant (in readings) and changes them like this.
+    pub fn loosen(&mut self, began: f64, signature: impl Fn(usize, usize) -> Signature<LOOSE>) {
+        let seeing = self.trackers.len();
+        let mut seen = vec![vec![Signature::zeros(); seeing]; self.joints.len()];
+        self.go_through(began, seeing, signature, |place, k, of, _| seen[k][place] = *of);
+        self.loose.seen.push(seen);
+        let all = &self.loose.seen;
+        let count = all.len() * LOOSE;
+        let (mut information, mut linear) = (DMatrix::identity(count, count), DVector::zeros(count));
+        let none = |_: usize, _: usize| Signature::zeros();
+        self.go_through(0.0, 0, none, |place, k, _: &Signature<LOOSE>, innovation| {
+            for (a, one) in all.iter().enumerate() {
+                let mut own = linear.rows_mut(a * LOOSE, LOOSE);
+                own += one[k][place].tr_mul(innovation);
+                for (b, other) in all.iter().enumerate() {
+                    let mut block = information.view_mut((a * LOOSE, b * LOOSE), (LOOSE, LOOSE));
+                    block += one[k][place].tr_mul(&other[k][place]);
+                }
+            }
+        });
+        // Of a sum of squares and the identity there always is one.
+        if let Some(factor) = information.cholesky() {
+            self.loose.mean = factor.solve(&linear);
+            self.loose.evidence = 0.5 * self.loose.mean.dot(&linear);
+            self.loose.covariance = factor.inverse();
+        }
+    }
+
+    /// What is heard, whitened, of every reading after an instant, tracker by tracker: what each signature adds, and the innovation.
+    fn go_through<const N: usize>(
+        &self,
+        began: f64,
+        seeing: usize,
+        signature: impl Fn(usize, usize) -> Signature<N>,
+        mut each: impl FnMut(usize, usize, &Signature<N>, &Six),
+    ) {
+        let mut responses = vec![SpatialResponses::<N>::default(); seeing];
+        for (k, joints) in self.joints.iter().enumerate().skip(began as usize + 1) {
+            let mut below: Option<(Signature<N>, Six)> = None;
+            for (place, Tracker { about, .. }) in self.trackers.iter().enumerate() {
+                let mut seen = match responses.get_mut(place) {
+                    Some(responses) => responses.step(&about.stages[k], &signature(place, k)),
+                    None => Signature::zeros(),
+                };
+                let mut innovation = about.innovations[k];
+                if let Some((seen_below, innovation_below)) = &below {
+                    let joint = &joints[place - 1];
+                    seen = joint.own * (seen - joint.below * seen_below);
+                    innovation = joint.own * (innovation - joint.below * innovation_below);
+                }
+                each(place, k, &seen, &innovation);
+                below = Some((seen, innovation));
+            }
+        }
     }
 
     fn square(&self, k: usize) -> f64 {
@@ -147,6 +221,12 @@ impl Ensemble {
             below = Some(innovation);
         }
         sum
+    }
+
+    /// Logarithm of the likelihood ratio of what else the readings hold, where nothing that they are heard for is in them.
+    #[must_use]
+    pub fn else_evidence(&self) -> f64 {
+        self.loose.evidence
     }
 
     /// One of the trackers.
@@ -164,25 +244,22 @@ impl Listens for Ensemble {
         signature: impl Fn(usize, usize) -> Signature<N>,
     ) -> Sums<N> {
         let mut sums = Sums::default();
-        let mut responses = vec![SpatialResponses::<N>::default(); seeing];
-        for (k, joints) in self.joints.iter().enumerate().skip(began as usize + 1) {
-            let mut below: Option<(Signature<N>, Six)> = None;
-            for (place, Tracker { about, .. }) in self.trackers.iter().enumerate() {
-                let mut seen = match responses.get_mut(place) {
-                    Some(responses) => responses.step(&about.stages[k], &signature(place, k)),
-                    None => Signature::zeros(),
-                };
-                let mut innovation = about.innovations[k];
-                if let Some((seen_below, innovation_below)) = &below {
-                    let joint = &joints[place - 1];
-                    seen = joint.own * (seen - joint.below * seen_below);
-                    innovation = joint.own * (innovation - joint.below * innovation_below);
-                }
-                sums.add(&seen, &innovation);
-                below = Some((seen, innovation));
+        let mut with_loose = DMatrix::zeros(N, self.loose.mean.len());
+        self.go_through(began, seeing, signature, |place, k, seen, innovation| {
+            sums.add(seen, innovation);
+            for (of, known) in self.loose.seen.iter().enumerate() {
+                let cross = seen.tr_mul(&known[k][place]);
+                let mut columns = with_loose.columns_mut(of * LOOSE, LOOSE);
+                columns += cross;
             }
+        });
+        let mut sums = sums.whole();
+        if !self.loose.seen.is_empty() {
+            // What is not known is integrated out: what signatures have in common with it tells of neither.
+            sums.linear -= &with_loose * &self.loose.mean;
+            sums.square -= &with_loose * &self.loose.covariance * with_loose.transpose();
         }
-        sums.whole()
+        sums
     }
 
     fn squares(&self) -> &[f64] {

@@ -91,7 +91,8 @@ impl ChainJudged {
                     last.deviating.dedup();
                 }
                 None => {
-                    if standing && let Some(contact) = found.last().and_then(|last| self.settled(last, alarm)) {
+                    let clear = |last: &ChainContactFound| self.clear(segment, alarm).max(0.5 * (last.alarm + alarm));
+                    if standing && let Some(contact) = found.last().and_then(|last| self.settled(last, clear(last))) {
                         known.push(contact);
                     }
                     if !standing {
@@ -151,12 +152,21 @@ impl ChainJudged {
             let heard = self.heard(alarm)?;
             let between = [heard.earliest(segment, heard.last())?, heard.last()];
             heard
-                .listen(known, between[0])?
+                .listen(known, between[0], None)?
                 .to(segment, between, 0.0)?
                 .told(1, 1.0, f64::NEG_INFINITY)
                 .map(|placed| placed.estimate.began)
         };
         began().map_or(alarm - before < SAME, |began| began <= before)
+    }
+
+    /// The time (s) by which nothing had begun of what a segment alarms of.
+    fn clear(&self, segment: usize, alarm: f64) -> f64 {
+        let clear = || {
+            let heard = self.heard(alarm)?;
+            heard.arrived(segment, heard.earliest(segment, heard.at(segment, alarm)?)?)
+        };
+        clear().unwrap_or(f64::NEG_INFINITY)
     }
 
     /// A contact as it is known at a later time (s).
@@ -184,15 +194,23 @@ impl ChainJudged {
         let earliest = contact.deviating.iter().filter_map(|&segment| heard.earliest(segment, latest)).min();
         let between = [earliest.or_else(|| heard.earliest(contact.raised_by, latest))?, latest];
         let parts = self.settings.segments[0].placing.beginnings;
-        let listening = heard.listen(&contact.before, between[0])?;
+        // The most distal one that deviates is likely the one.
+        let likely = contact.deviating.last().copied().unwrap_or(contact.raised_by);
+        let listening = heard.listen(&contact.before, between[0], None)?;
+        let suspected = || {
+            let Placed { estimate, tilt } = listening.to(likely, between, 0.0)?.told(1, 1.0, f64::NEG_INFINITY)?;
+            let began = heard.reading(estimate.began);
+            Some(KnownContact { segment: likely, at: estimate.place.mean, tilt, began })
+        };
+        let again = suspected().and_then(|suspected| heard.listen(&contact.before, between[0], Some(suspected)));
+        let listening = again.unwrap_or(listening);
         let told = |asked: &Option<Asked>, doubt: f64, rival: f64| asked.as_ref()?.told(parts, doubt, rival);
         let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);
         let evidence =
             |each: &[Option<Placed>]| each.iter().flatten().map(|of| of.estimate.evidence).fold(0.0, f64::max);
         let mut asked: Vec<_> = (0..heard.segments()).map(|segment| listening.to(segment, between, 0.0)).collect();
         let mut each: Vec<Option<Placed>> = vec![None; asked.len()];
-        // The most distal one that deviates is likely the one: beside it others need no closer look.
-        let likely = contact.deviating.last().copied().unwrap_or(contact.raised_by);
+        // Beside it others need no closer look.
         for segment in std::iter::once(likely).chain((0..asked.len()).filter(|segment| *segment != likely)) {
             each[segment] = told(&asked[segment], 1.0, evidence(&each));
         }

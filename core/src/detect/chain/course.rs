@@ -151,14 +151,23 @@ impl Course {
         disks
     }
 
-    /// What was read, less what contacts that are known change in it since the first of them was met (in readings): a tracker would have read so
-    /// without them. `poses` holds the readings of every segment.
-    pub fn without(&self, known: &[Contact], since: f64, poses: &[&[Pose]]) -> Vec<Vec<Pose>> {
+    /// The end disks, each in the frame of the one below it, at some instants that rise, with contacts that are known: each from its beginning on,
+    /// the earlier ones first. `None` where one of them cannot be.
+    pub fn held(&self, known: &[KnownContact], instants: &[f64]) -> Option<Vec<Vec<Pose>>> {
+        let planes = self.planes(known)?;
+        let begun = |at: f64| known.iter().take_while(|contact| contact.began < at).count();
+        let with = |same: &[f64]| self.followed(&planes[..begun(same[0])], same, begun(same[0]));
+        Some(instants.chunk_by(|one, next| begun(*one) == begun(*next)).flat_map(with).collect())
+    }
+
+    /// What was read, less what contacts that are known change in it: a tracker would have read so without them. `poses` holds the readings of
+    /// every segment.
+    pub fn without(&self, known: &[KnownContact], poses: &[&[Pose]]) -> Option<Vec<Vec<Pose>>> {
         let mut corrected: Vec<Vec<Pose>> = poses.iter().map(|poses| poses[..=self.last].to_vec()).collect();
+        let since = known.first().map_or(f64::INFINITY, |contact| contact.began);
         let first = (since.max(0.0) as usize + 1).min(self.last);
         let instants: Vec<f64> = (first..=self.last).map(|k| k as f64).collect();
-        let with = self.followed(known, &instants, known.len());
-        for (k, with) in with.iter().enumerate() {
+        for (k, with) in self.held(known, &instants)?.iter().enumerate() {
             let free = self.free(instants[k]);
             for (tracker, poses) in corrected.iter_mut().enumerate() {
                 let pose = &mut poses[first + k];
@@ -166,7 +175,7 @@ impl Course {
                 pose.rotation = free[tracker].rotation * with[tracker].rotation.tr_mul(&pose.rotation);
             }
         }
-        corrected
+        Some(corrected)
     }
 }
 

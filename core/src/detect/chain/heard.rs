@@ -1,6 +1,7 @@
 //! What was read on all end disks, or on the last alone, and what it says of contacts.
 
 use super::course::{Bending, Course, KnownContact, smoothed};
+use super::elsewhere::Elsewhere;
 use super::hypotheses::{Hypotheses, Seen, axes};
 use super::whole;
 use super::whole::linear::Own;
@@ -87,6 +88,14 @@ impl Heard<'_> {
         }
     }
 
+    /// When a reading of a segment's end disk had arrived, s.
+    pub fn arrived(&self, segment: usize, reading: usize) -> Option<f64> {
+        match self {
+            Self::Each(each) => each.watched.get(segment)?.readings.arrived.get(reading).copied(),
+            Self::Last(last) => last.watch.arrived.get(reading).copied(),
+        }
+    }
+
     /// The first reading at which a contact can have begun of which an alarm of a segment's end disk at a reading tells.
     pub fn earliest(&self, segment: usize, alarm: usize) -> Option<usize> {
         match self {
@@ -103,10 +112,11 @@ impl Heard<'_> {
         }
     }
 
-    /// By what is known before a reading, and of contacts.
-    pub fn listen(&self, known: &[KnownContact], first: usize) -> Option<Listening> {
+    /// By what is known before a reading, and of contacts that hold already. What is suspected since then is only kept out of the bends: it
+    /// changes what is measured of them.
+    pub fn listen(&self, known: &[KnownContact], first: usize, suspected: Option<KnownContact>) -> Option<Listening> {
         match self {
-            Self::Each(each) => each.listen(known, first),
+            Self::Each(each) => each.listen(known, first, suspected),
             Self::Last(last) => last.listen(first),
         }
     }
@@ -161,33 +171,43 @@ impl<'a> Each<'a> {
         Some(Self { watched, moments, rods, last })
     }
 
-    fn listen(&self, known: &[KnownContact], first: usize) -> Option<Listening> {
+    fn listen(&self, known: &[KnownContact], first: usize, suspected: Option<KnownContact>) -> Option<Listening> {
         let clear = known.iter().map(|contact| contact.began.max(0.0) as usize).fold(first, usize::min);
-        let poses: Vec<&[Pose]> = self.watched.iter().map(|watched| &watched.readings.poses[..=self.last]).collect();
-        let trackers: Vec<Tracker> = self
-            .histories(&poses)
-            .iter()
-            .map(|history| Tracker::new(history, clear.saturating_sub(CLEAR)))
-            .collect::<Option<_>>()?;
-        let course = self.course(&trackers)?;
+        let read: Vec<&[Pose]> = self.watched.iter().map(|watched| &watched.readings.poses[..=self.last]).collect();
+        let mut trackers = self.trackers(&read, clear)?;
+        let mut course = self.course(&trackers, &trackers)?;
+        let mut corrected = None;
+        if !known.is_empty() {
+            let poses = course.without(known, &read)?;
+            // What is read between the contacts tells more of the calibration.
+            trackers = self.trackers(&slices(&poses), first)?;
+            course = self.course(&trackers, &trackers)?;
+            corrected = Some(poses);
+        }
+        if let Some(suspected) = suspected {
+            let all: Vec<KnownContact> = known.iter().copied().chain([suspected]).collect();
+            let poses = course.without(&all, &read)?;
+            let poses = slices(&poses);
+            let histories = self.histories(&poses);
+            let bent: Vec<Tracker> = trackers.iter().zip(&histories).map(|(of, history)| of.reread(history)).collect();
+            course = self.course(&trackers, &bent)?;
+        }
         let planes = course.planes(known)?;
-        let corrected = known.first().map(|first| course.without(&planes, first.began, &poses));
-        let (poses, trackers) = match &corrected {
-            None => (poses, trackers),
-            Some(corrected) => {
-                let poses: Vec<&[Pose]> = corrected.iter().map(Vec::as_slice).collect();
-                let histories = self.histories(&poses);
-                let trackers = trackers.into_iter().zip(&histories).map(|(tracker, history)| tracker.reread(history));
-                let trackers = trackers.collect();
-                (poses, trackers)
-            }
-        };
+        let poses = corrected.as_ref().map_or(read, |poses| slices(poses));
         let calibrations = trackers.iter().map(|tracker| tracker.calibration).collect();
         let models: Vec<_> = self.watched.iter().map(|watched| &watched.model).collect();
         let at = |tracker: usize, k: usize| axes(course.configuration(tracker, k as f64));
-        let ensemble = Ensemble::new(trackers, &models, &poses, at);
+        let mut ensemble = Ensemble::new(trackers, &models, &poses, at);
+        for elsewhere in Elsewhere::all(&course, known)? {
+            ensemble.loosen(elsewhere.began, |tracker, k| elsewhere.at(tracker, k));
+        }
         let commands = self.moments.iter().map(|of| of.iter().map(|moment| moment.command).collect()).collect();
         Some(Listening { ears: Ears::Each(ensemble), seen: Seen::Each, calibrations, course, planes, commands })
+    }
+
+    /// Calibrated by what was read before a reading.
+    fn trackers(&self, poses: &[&[Pose]], before: usize) -> Option<Vec<Tracker>> {
+        self.histories(poses).iter().map(|history| Tracker::new(history, before.saturating_sub(CLEAR))).collect()
     }
 
     fn histories<'p>(&'p self, poses: &[&'p [Pose]]) -> Vec<History<'p>> {
@@ -195,17 +215,17 @@ impl<'a> Each<'a> {
         each.map(|((watched, moments), readings)| History { model: &watched.model, moments, readings }).collect()
     }
 
-    /// The chain as calibrated, driven by the bends that are measured.
-    fn course(&self, trackers: &[Tracker]) -> Option<Course> {
+    /// The chain as calibrated, driven by the bends that are measured; `bent` measures them.
+    fn course(&self, trackers: &[Tracker], bent: &[Tracker]) -> Option<Course> {
         let rods = self.rods.iter().zip(trackers);
         let rods =
             rods.map(|(rod, tracker)| Rod { length: rod.length * (1.0 + tracker.calibration[0][STRETCH]), ..*rod });
-        let bending = |(tracker, moments): (&Tracker, &Vec<Moment>)| Bending {
-            bends: smoothed(tracker.bends()),
+        let bending = |((tracker, bent), moments): ((&Tracker, &Tracker), &Vec<Moment>)| Bending {
+            bends: smoothed(bent.bends()),
             deltas: moments.iter().map(|moment| moment.command.delta + tracker.calibration[0][ACROSS]).collect(),
             commanded: moments.iter().map(|moment| moment.command.bend).collect(),
         };
-        Course::new(rods.collect(), trackers.iter().zip(&self.moments).map(bending).collect())
+        Course::new(rods.collect(), trackers.iter().zip(bent).zip(&self.moments).map(bending).collect())
     }
 }
 
@@ -214,7 +234,7 @@ impl Listening {
     /// likelihood ratio.
     pub fn doubt(&self, since: usize, best: f64) -> f64 {
         match &self.ears {
-            Ears::Each(ensemble) => doubt(ensemble.squares(), since, best),
+            Ears::Each(ensemble) => doubt(ensemble.squares(), since, best + ensemble.else_evidence()),
             Ears::Last(heard) => doubt(heard.squares(), since, best),
         }
     }
@@ -253,6 +273,10 @@ impl Asked<'_> {
             Ears::Last(heard) => jointly::estimate(heard, &hypotheses, kept, &question),
         }
     }
+}
+
+fn slices(poses: &[Vec<Pose>]) -> Vec<&[Pose]> {
+    poses.iter().map(Vec::as_slice).collect()
 }
 
 /// The reading, and the share of the way to the next, at a time (s), of those taken at these.

@@ -18,7 +18,7 @@ use std::sync::LazyLock;
 
 /// Beginnings, and times after each, at which shapes are solved.
 const BEGINNINGS: usize = 4;
-const TIMES: usize = 6;
+pub(super) const TIMES: usize = 6;
 
 /// What the trackers see.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,8 +56,24 @@ static AT: LazyLock<[f64; TIMES]> =
     LazyLock::new(|| std::array::from_fn(|i| 0.5 * (1.0 - cos(PI * (2 * i + 2) as f64 / (2 * TIMES + 1) as f64))));
 
 /// Shares of the time from a beginning to the last reading: with the beginning, Chebyshev points of Radau's kind.
-fn times() -> [f64; TIMES] {
+pub(super) fn times() -> [f64; TIMES] {
     *AT
+}
+
+/// What is known at these times between an instant and the last reading, at a reading: nothing before the instant.
+pub(super) fn interpolated<const N: usize>(
+    all: &[Signature<N>; TIMES],
+    [began, last]: [f64; 2],
+    reading: usize,
+) -> Signature<N> {
+    let share = (reading as f64 - began) / (last - began);
+    let mut signature = Signature::<N>::zeros();
+    if share > 0.0 {
+        for (at, by) in all.iter().zip(weights(&times(), share, true)) {
+            signature.zip_apply(at, |sum, at| *sum += at * by);
+        }
+    }
+    signature
 }
 
 /// Lagrange's polynomials of these nodes at a point; with one more at 0, which counts for nothing, where there is one.
@@ -118,14 +134,20 @@ impl<'a> Hypotheses<'a> {
         Some(of)
     }
 
-    /// How a tracker's reading of some end disks differs from that of others.
     fn off(&self, tracker: usize, at: f64, without: &[Pose], with: &[Pose]) -> Six {
-        match self.seen {
-            Seen::Each => {
-                let axes = axes(self.course.configuration(tracker, at));
+        self.seen.off(self.course, tracker, at, [without, with])
+    }
+}
+
+impl Seen {
+    /// How a tracker's reading of some end disks differs from that of others.
+    pub fn off(&self, course: &Course, tracker: usize, at: f64, [without, with]: [&[Pose]; 2]) -> Six {
+        match self {
+            Self::Each => {
+                let axes = axes(course.configuration(tracker, at));
                 residual(&without[tracker], &axes, &with[tracker])
             }
-            Seen::Last(axes) => residual(&last(without), &axes, &last(with)),
+            Self::Last(axes) => residual(&last(without), axes, &last(with)),
         }
     }
 }
@@ -158,16 +180,7 @@ impl<'a> jointly::Hypotheses for &'a Hypotheses<'a> {
 
 impl jointly::Met for Met<'_> {
     fn planes(&self, tracker: usize, reading: usize) -> Signature<WIDE> {
-        let share = (reading as f64 - self.began) / (self.of.course.last as f64 - self.began);
-        if share <= 0.0 {
-            return Signature::zeros();
-        }
-        let by_time = weights(&times(), share, true);
-        let mut signature = Signature::<WIDE>::zeros();
-        for (at, by) in self.planes[tracker].iter().zip(by_time) {
-            signature.zip_apply(at, |sum, at| *sum += at * by);
-        }
-        signature
+        interpolated(&self.planes[tracker], [self.began, self.of.course.last as f64], reading)
     }
 
     fn clamps(&self, tracker: usize, reading: usize) -> Signature<PLACES> {
