@@ -104,7 +104,7 @@ fn near(a: &Value, b: &Value) -> bool {
         }
         (Value::Number(a), Value::Number(b)) => {
             let (a, b) = (a.as_f64().expect("a number"), b.as_f64().expect("a number"));
-            (a - b).abs() <= 1e-6 * a.abs().max(1e-3)
+            (a - b).abs() <= 1e-5 * a.abs().max(1e-3)
         }
         (a, b) => a == b,
     }

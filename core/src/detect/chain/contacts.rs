@@ -202,7 +202,9 @@ impl ChainJudged {
             let began = heard.reading(estimate.began);
             Some(KnownContact { segment: likely, at: estimate.place.mean, tilt, began })
         };
-        let again = suspected().and_then(|suspected| heard.listen(&contact.before, between[0], Some(suspected)));
+        // One tracker measures no bends that contacts could change.
+        let suspected = if matches!(heard, Heard::Each(_)) { suspected() } else { None };
+        let again = suspected.and_then(|suspected| heard.listen(&contact.before, between[0], Some(suspected)));
         let listening = again.unwrap_or(listening);
         let told = |asked: &Option<Asked>, doubt: f64, rival: f64| asked.as_ref()?.told(parts, doubt, rival);
         let ratio = |placed: &Option<Placed>| placed.as_ref().map_or(f64::NEG_INFINITY, |placed| placed.estimate.ratio);

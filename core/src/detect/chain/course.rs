@@ -156,7 +156,10 @@ impl Course {
     pub fn held(&self, known: &[KnownContact], instants: &[f64]) -> Option<Vec<Vec<Pose>>> {
         let planes = self.planes(known)?;
         let begun = |at: f64| known.iter().take_while(|contact| contact.began < at).count();
-        let with = |same: &[f64]| self.followed(&planes[..begun(same[0])], same, begun(same[0]));
+        let with = |same: &[f64]| match begun(same[0]) {
+            0 => same.iter().map(|at| self.free(*at)).collect(),
+            count => self.followed(&planes[..count], same, count),
+        };
         Some(instants.chunk_by(|one, next| begun(*one) == begun(*next)).flat_map(with).collect())
     }
 

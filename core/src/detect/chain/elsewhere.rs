@@ -31,26 +31,25 @@ impl Elsewhere {
         let last = course.last as f64;
         let instants = times().map(|share| began + share * (last - began));
         let here = course.held(known, &instants)?;
-        let trackers = here[0].len();
-        let mut changes = vec![[Signature::<LOOSE>::zeros(); TIMES]; trackers];
+        let mut changes = vec![[Signature::<LOOSE>::zeros(); TIMES]; here[0].len()];
         for (direction, prior) in PRIOR.into_iter().enumerate() {
             let mut other = known.to_vec();
             let moved = &mut other[place];
-            // Toward the middle, where there is backbone, and later, where there are readings.
+            let mut step = STEP;
             match direction {
                 0 => {
-                    moved.at -=
-                        STEP * prior * course.length(segment) * (moved.at - 0.5 * course.length(segment)).signum()
+                    // Toward the middle, where there is backbone.
+                    step *= (0.5 * course.length(segment) - moved.at).signum();
+                    moved.at += step * prior * course.length(segment);
                 }
-                1 => moved.began += STEP * prior,
-                _ => moved.tilt += STEP * prior,
+                1 => moved.began += step * prior,
+                _ => moved.tilt += step * prior,
             }
-            let sign = if direction == 0 { (other[place].at - known[place].at).signum() } else { 1.0 };
             let there = course.held(&other, &instants)?;
-            for time in 0..TIMES {
-                for tracker in 0..trackers {
+            for (tracker, changes) in changes.iter_mut().enumerate() {
+                for (time, change) in changes.iter_mut().enumerate() {
                     let off = Seen::Each.off(course, tracker, instants[time], [&here[time], &there[time]]);
-                    changes[tracker][time].set_column(direction, &(off * (sign / STEP)));
+                    change.set_column(direction, &(off / step));
                 }
             }
         }
