@@ -37,8 +37,9 @@ const LEAST: [f32; 3] = [128.0, 112.0, 84.0];
 const LEAST_ROW: f32 = 120.0;
 /// Space between plots.
 const GAP: f32 = 10.0;
-/// Of the second plot at least so much is seen, its title, or nothing, points.
-const PEEK: f32 = 30.0;
+/// Stacked plots may be so much lower or higher, that what is seen ends where a plot does.
+const LOWEST: f32 = 0.85;
+const HIGHEST: f32 = 1.3;
 
 /// What the plots remember between frames; nothing of it is an input of the experiment.
 #[derive(Default)]
@@ -258,15 +259,16 @@ fn least(count: usize) -> Vec<f32> {
     (0..count).map(|k| LEAST[kind(k)]).collect()
 }
 
-/// How high plots are that are as high as this when stacked, where so much of them is seen: if that is hardly less than the first, or
-/// little more, it is the first that is seen, whole.
+/// How high so many plots are that are `stacked` high, where so much of them is seen: a little lower or higher, so that none is cut where that is
+/// possible.
 fn whole(stacked: f32, count: usize, seen: f32) -> f32 {
-    let first = LEAST[if count == 1 { 2 } else { 0 }];
-    if seen >= stacked || !(0.95 * first..first + PEEK).contains(&seen) {
-        return stacked;
-    }
-    let gaps = count.saturating_sub(1) as f32 * GAP;
-    (stacked - gaps) * seen / first + gaps
+    let least = least(count);
+    let high = |plots: usize| least[..plots].iter().sum::<f32>();
+    let gaps = |plots: usize| plots.saturating_sub(1) as f32 * GAP;
+    let fits = (1..=count).rev().find(|&plots| seen >= LOWEST * high(plots) + gaps(plots));
+    let Some(plots) = fits.filter(|_| seen < stacked) else { return stacked };
+    let share = (seen - gaps(plots)) / high(plots);
+    if share > HIGHEST { stacked } else { share * high(count) + gaps(count) }
 }
 
 /// Places of so many plots: a row, or a column in which the first is highest.
@@ -297,12 +299,15 @@ mod tests {
 
     #[test]
     fn no_plot_is_cut_where_one_has_room() {
-        for (count, seen) in [(2, 122.0), (3, 128.0), (3, 150.0), (6, 124.0)] {
+        for (count, seen, plots) in
+            [(2, 112.0, 1), (3, 128.0, 1), (3, 164.0, 1), (3, 246.0, 2), (3, 300.0, 3), (6, 124.0, 1)]
+        {
             let stacked = least(count).iter().sum::<f32>() + (count - 1) as f32 * GAP;
             let area = Rect::from_min_size(pos2(0.0, 0.0), vec2(390.0, whole(stacked, count, seen)));
-            assert!((layout(area, false, count)[0].height() - seen).abs() < 0.01, "{count} plots, {seen} seen");
-            // Else a title or more of the next is seen; who has room for all is shown all, and where one has too little it is not squeezed.
-            assert_eq!([160.0, 900.0, 100.0].map(|seen| whole(stacked, count, seen)), [stacked; 3]);
+            let last = layout(area, false, count)[plots - 1];
+            assert!((last.bottom() - seen).abs() < 0.01, "{count} plots, {seen} seen: {last:?}");
+            // Who has room for all is shown all; where one has too little, none is squeezed; and none is blown up.
+            assert_eq!([900.0, 100.0, 190.0].map(|seen| whole(stacked, count, seen)), [stacked; 3]);
         }
     }
 

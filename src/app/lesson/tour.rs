@@ -243,7 +243,7 @@ pub static TOUR: [Step; STEPS] = [
     Step {
         title: "Why torsion matters",
         text: "A beam that stands aslant pushes a segment out of its bending plane, and its force twists what is below. How far depends on the stiffness in \
-               torsion. With GJ = 5 EI the last disk of three segments stands 1 to 13 mm from where a chain that cannot twist would have it: more than \
+               torsion. With GJ = 5 EI the last disk of three segments stands 1 to 13 mm from where a chain that cannot twist would have it: more than \
                a threshold. In one plane there is no twist at all.",
         task: "Play, or move the time, until the end disk is half a millimetre out of its bending plane.",
         noticed: "The joints still turn in one plane; the robot does not. The place is estimated with all directions of the beam in mind.",
