@@ -173,11 +173,14 @@ impl Ensemble {
                 }
             }
         });
-        // Of a sum of squares and the identity there always is one.
-        if let Some(factor) = information.cholesky() {
-            self.loose.mean = factor.solve(&linear);
-            self.loose.evidence = 0.5 * self.loose.mean.dot(&linear);
-            self.loose.covariance = factor.inverse();
+        match information.cholesky() {
+            Some(factor) => {
+                self.loose.mean = factor.solve(&linear);
+                self.loose.evidence = 0.5 * self.loose.mean.dot(&linear);
+                self.loose.covariance = factor.inverse();
+            }
+            // Of a sum of squares and the identity there always is one, unless they are no numbers.
+            None => self.loose = Loose::default(),
         }
     }
 
