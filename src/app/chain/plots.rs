@@ -129,7 +129,11 @@ fn choices(ui: &mut Ui, strip: Rect, (memo, set): (&Memo, &ChainState), all: &[S
         let options: Vec<Segment<'_>> = measures
             .iter()
             .map(|measure| Segment {
-                text: if right.width() < 110.0 * measures.len() as f32 { measure.symbol } else { short(measure.name) },
+                text: if right.width() < 110.0 * measures.len() as f32 {
+                    letter(measure.name)
+                } else {
+                    short(measure.name)
+                },
                 name: measure.name,
                 hint: measure.name,
             })
@@ -156,6 +160,20 @@ fn short(name: &'static str) -> &'static str {
         "Stability margin" => "Margin",
         "Bending direction" => "δ",
         other => other,
+    }
+}
+
+/// What stands for it where there is room for a letter only.
+fn letter(name: &'static str) -> &'static str {
+    match name {
+        "Centrode deviation" => "c",
+        "Consistent centrode deviation" => "c′",
+        "Velocity deviation" => "v",
+        "Log likelihood ratio" => "g",
+        "Screw axis distance" => "f",
+        "Screw axis angle" => "α",
+        "Stability margin" => "m",
+        other => short(other),
     }
 }
 
