@@ -128,7 +128,7 @@ fn the_3d_view_moves_on_webgpu() {
     the_view_moves_with_playback(&mut Page::open(Renderer::WebGpu, "?test", Options::default()));
 }
 
-/// A measurement, printed with `--nocapture`; that the page computes the same run is what it asserts.
+/// A measurement, printed with `--nocapture`; that the page computes at all is what it asserts.
 #[test]
 fn a_run_in_wasm_takes_this_long() {
     const RUNS: u32 = 40;
