@@ -5,9 +5,10 @@
 use crate::chart::Chart;
 use crate::run::{Run, simulate};
 use crate::scenario::overrides::whole;
-use crate::scenario::preset::{PRESETS, find};
-use crate::scenario::{Scenario, ScenarioError};
+use crate::scenario::preset::{CHAINS, PRESETS, find};
+use crate::scenario::{ChainPlan, Scenario, ScenarioError};
 use crate::study::Job;
+use crate::study::chain::ChainRun;
 use crate::study::figure::{FigureJob, Number};
 use crate::study::map::MapJob;
 use crate::study::table2::Table2Job;
@@ -15,16 +16,20 @@ use crate::study::tuning::watch::Rule;
 use crate::study::tuning::{Spec, Study};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
+use std::error::Error;
 
 /// The name of each thing and its hash, 16 hexadecimal digits.
 pub type Fingerprints = BTreeMap<String, String>;
 
-/// Runs every preset, makes every figure, Table II (5 repeats), the map (20 × 20) and a study (50 repeats of three filters),
-/// and hashes what comes of them.
+/// Contacts on several segments are placed so long after their alarms, s.
+const PLACED: [f64; 1] = [0.25];
+
+/// Runs every preset of one segment and of several, makes every figure, Table II (5 repeats), the map (20 × 20) and a study (50 repeats of
+/// three filters), and hashes what comes of them.
 ///
 /// # Errors
 /// When a preset of the program is impossible, which a test would have shown.
-pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
+pub fn fingerprints() -> Result<Fingerprints, Box<dyn Error>> {
     let mut all = Fingerprints::new();
     let mut add = |name: String, hash: u64| {
         all.insert(name, format!("{hash:016x}"));
@@ -34,6 +39,11 @@ pub fn fingerprints() -> Result<Fingerprints, ScenarioError> {
         add(format!("run {}", preset.name), run.fingerprint());
         add(format!("verdict {}", preset.name), hash(&verdict(&run)));
         add(format!("events {}", preset.name), hash(&events(&run)));
+    }
+    for preset in CHAINS {
+        let scenario = preset.chain(&[])?;
+        let run = ChainRun::new(ChainPlan::new(&scenario)?);
+        add(format!("chain {}", preset.name), hash(&json!(run.report(None, &PLACED))));
     }
     for number in Number::ALL {
         let mut job = FigureJob::new(number, &find(number.preset())?.scenario()?)?;

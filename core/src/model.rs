@@ -21,6 +21,7 @@ pub mod contact;
 pub mod joints;
 pub mod location;
 pub mod orientation;
+pub(crate) mod product;
 pub mod special;
 pub mod statics;
 pub mod twist;

@@ -9,9 +9,10 @@ use super::linear;
 use super::marginal::{About, BELIEVED, Calibrated, History, about_errors, calibrate, nominal};
 use super::sheet::Sums;
 use super::{DRIFT, STATES, Six};
+use crate::model::product::add_product;
 use crate::model::{Mat3, Pose};
 use libm::sqrt;
-use nalgebra::{DMatrix, DVector, SMatrix};
+use nalgebra::{Const, DMatrix, DVector, Dyn, OMatrix, SMatrix};
 
 type Square6 = SMatrix<f64, 6, 6>;
 
@@ -247,7 +248,7 @@ impl Listens for Ensemble {
         signature: impl Fn(usize, usize) -> Signature<N>,
     ) -> Sums<N> {
         let mut sums = Sums::default();
-        let mut with_loose = DMatrix::zeros(N, self.loose.mean.len());
+        let mut with_loose = OMatrix::<f64, Const<N>, Dyn>::zeros(self.loose.mean.len());
         self.go_through(began, seeing, signature, |place, k, seen, innovation| {
             sums.add(seen, innovation);
             for (of, known) in self.loose.seen.iter().enumerate() {
@@ -260,7 +261,9 @@ impl Listens for Ensemble {
         if !self.loose.seen.is_empty() {
             // What is not known is integrated out: what signatures have in common with it tells of neither.
             sums.linear -= &with_loose * &self.loose.mean;
-            sums.square -= &with_loose * &self.loose.covariance * with_loose.transpose();
+            let mut spread = OMatrix::<f64, Const<N>, Dyn>::zeros(with_loose.ncols());
+            add_product(&mut spread, 1.0, &with_loose, &self.loose.covariance);
+            add_product(&mut sums.square, -1.0, &spread, &with_loose.transpose());
         }
         sums
     }

@@ -4,6 +4,7 @@ use super::Model;
 use super::linear::{Linear, Moment, Own, Wide};
 use crate::detect::calibration::Six;
 use crate::detect::calibration::filter::Signature;
+use crate::model::product::add_product;
 use libm::{exp, log, sqrt};
 use nalgebra::{Const, DMatrix, DVector, Dyn, OMatrix, SMatrix, U6};
 
@@ -87,8 +88,10 @@ impl Designer {
             }
         }
         let (place, turn) = (white * noise.position * noise.position, white * noise.orientation * noise.orientation);
-        let across: OMatrix<f64, Dyn, U6> = &*covariance * columns.transpose();
-        let mut spread: SMatrix<f64, 6, 6> = &columns * &across;
+        let mut across = OMatrix::<f64, Dyn, U6>::zeros(covariance.nrows());
+        add_product(&mut across, 1.0, covariance, &columns.transpose());
+        let mut spread = SMatrix::<f64, 6, 6>::zeros();
+        add_product(&mut spread, 1.0, &columns, &across);
         for (i, variance) in [turn, place, place, place, turn, turn].into_iter().enumerate() {
             spread[(i, i)] += variance;
         }
@@ -96,9 +99,11 @@ impl Designer {
         let mut whitener = SMatrix::<f64, 6, 6>::identity();
         // A lower triangle with a positive diagonal has an inverse.
         let _ = lower.solve_lower_triangular_mut(&mut whitener);
-        let seen = whitener * columns;
-        let gain = across * whitener.transpose();
-        *covariance -= &gain * gain.transpose();
+        let mut seen = Wide::zeros(columns.ncols());
+        add_product(&mut seen, 1.0, &whitener, &columns);
+        let mut gain = OMatrix::<f64, Dyn, U6>::zeros(covariance.nrows());
+        add_product(&mut gain, 1.0, &across, &whitener.transpose());
+        add_product(covariance, -1.0, &gain, &gain.transpose());
         *last = Some((moment.time, scaled));
         Stage { whitener, seen, gain, kept: (kept, drift), colour }
     }
@@ -166,8 +171,8 @@ impl<const N: usize> Responses<N> {
             self.states.rows_mut(drift, 3).scale_mut(kept);
         }
         let mut seen = stage.whitener * fresh;
-        seen.gemm(-1.0, &stage.seen, &self.states, 1.0);
-        self.states.gemm(1.0, &stage.gain, &seen, 1.0);
+        add_product(&mut seen, -1.0, &stage.seen, &self.states);
+        add_product(&mut self.states, 1.0, &stage.gain, &seen);
         seen
     }
 }
