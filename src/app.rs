@@ -123,11 +123,11 @@ impl App {
         let state = State::default();
         dress(ctx, &state, host.prefers_reduced_motion);
         let untouched = host.fragment.is_empty() && host.embed.is_none() && !host.hosted;
-        let [helper, other] = Lent::two(host.helper);
+        let [helper, other, third] = Lent::shares(host.helper);
         let mut app = Self {
             base: state::shipped(state.preset()),
             memo: Memo::new(&state.scenario),
-            chain: Chain::default(),
+            chain: Chain::new(third),
             pictures: chain::Pictures::default(),
             sharing: Sharing::new(host.address, &state),
             state,

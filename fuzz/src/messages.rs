@@ -1,7 +1,9 @@
 //! What the page and its worker tell one another: neither may stop at what it does not understand.
 
-use centrode_core::scenario::preset::find;
+use centrode_core::scenario::chain::ChainDraft;
+use centrode_core::scenario::preset::{CHAINS, find};
 use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::study::chain::placing::{self, Placing};
 use centrode_core::study::compare::{self, Compare};
 use centrode_core::study::remote::{Answer, Found, Remote, Request, Work};
 use centrode_core::study::tuning::watch::Rule;
@@ -21,11 +23,16 @@ pub fn messages(bytes: &[u8]) {
 
 fn request(text: &str) {
     let Ok(Request { id, work }) = serde_json::from_str(text) else { return };
-    let (scenario, count) = match &work {
-        Work::Thresholds { spec, .. } => (&spec.scenario, spec.cells.len()),
-        Work::Detectors { spec, .. } => (&spec.scenario, 1),
+    let long = |scenario: &Scenario| Plan::new(scenario).is_ok_and(|plan| plan.samples() > MOST);
+    let too_much = match &work {
+        Work::Thresholds { spec, .. } => spec.cells.len() > 8 || long(&spec.scenario),
+        Work::Detectors { spec, .. } => long(&spec.scenario),
+        Work::Contacts(spec) => {
+            let scenario = ChainDraft::from_bytes(spec.scenario.as_bytes()).and_then(|draft| draft.scenario());
+            scenario.is_ok_and(|scenario| long(scenario.common()))
+        }
     };
-    if count > 8 || Plan::new(scenario).is_ok_and(|plan| plan.samples() > MOST) {
+    if too_much {
         return;
     }
     let Ok(mut remote) = Remote::new(text) else { return };
@@ -50,6 +57,13 @@ static COMPARE: LazyLock<Compare> = LazyLock::new(|| {
     Compare::new(spec).expect("possible")
 });
 
+static PLACING: LazyLock<Placing> = LazyLock::new(|| {
+    let slow = ["loop_rate=20", "filter.length=10"];
+    let draft = ChainDraft::of(&CHAINS[0]).overridden(slow).expect("possible");
+    let spec = placing::Spec { scenario: draft.to_toml(), time: 0.0 };
+    Placing::new(&spec.run().expect("possible"))
+});
+
 fn answer(bytes: &[u8]) {
     match Answer::from_bytes(bytes) {
         Ok(Answer { found: Found::Thresholds(tallies), .. }) => {
@@ -67,6 +81,11 @@ fn answer(bytes: &[u8]) {
             let wanted = made.len() as u64;
             let fit = made.into_iter().filter(|made| compare.add(made.clone())).count() as u64;
             assert!(compare.repeats() <= fit && fit <= wanted);
+        }
+        Ok(Answer { found: Found::Contacts(parts), .. }) => {
+            let mut placing = PLACING.clone();
+            let fit = parts.into_iter().filter(|part| placing.add(part.clone())).count() as u64;
+            assert_eq!(placing.progress().done, fit);
         }
         Err(_) => {}
     }

@@ -12,6 +12,7 @@ pub mod words;
 
 use std::collections::BTreeMap;
 
+use crate::app::helper::Helper;
 use centrode_core::scenario::ChainScenario;
 use centrode_core::scenario::chain::ChainDraft;
 use centrode_core::scenario::preset::{self, CHAINS, Preset};
@@ -65,6 +66,8 @@ impl ChainState {
 pub struct Chain {
     /// The run; none before it is looked at.
     pub memo: Option<Memo>,
+    /// Who places contacts, until the run has it.
+    helper: Option<Box<dyn Helper>>,
     /// A log in place of the simulation.
     pub logs: log::Logs,
     /// What the preset says.
@@ -85,9 +88,18 @@ pub struct Pictures {
 }
 
 impl Chain {
+    /// Nothing is looked at yet; `helper` places contacts, if there is one.
+    #[must_use]
+    pub fn new(helper: Option<Box<dyn Helper>>) -> Self {
+        Self { helper, ..Self::default() }
+    }
+
     /// Brings the run up to date with what is set, if it is looked at. Returns whether that had changed.
     pub fn update(&mut self, state: &ChainState, seen: bool) -> bool {
         if !seen {
+            if self.memo.as_ref().is_some_and(Memo::is_working) {
+                self.memo.iter_mut().for_each(Memo::rest);
+            }
             return false;
         }
         if self.base.as_ref().is_none_or(|(name, _)| *name != state.preset) {
@@ -97,7 +109,7 @@ impl Chain {
         match &mut self.memo {
             Some(memo) => memo.update(&state.draft, self.logs.shown.as_ref()),
             None => {
-                self.memo = Some(Memo::new(&state.draft, self.logs.shown.as_ref()));
+                self.memo = Some(Memo::new(&state.draft, self.logs.shown.as_ref(), self.helper.take()));
                 true
             }
         }

@@ -5,7 +5,6 @@
 use std::borrow::Cow;
 
 use super::App;
-use crate::app::chain;
 use crate::app::link::Effect;
 use crate::app::stages::stage::Stage;
 use crate::app::stages::studies::{Found, REPEATS};
@@ -16,6 +15,7 @@ use centrode_core::chart::csv::csv;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::link::Page;
 use centrode_core::study::chain::figure::over_time;
+use centrode_core::study::chain::placing::after;
 use centrode_core::study::course::between;
 use centrode_core::study::export::{name, signed};
 use centrode_core::study::figure::Number;
@@ -238,7 +238,7 @@ impl App {
             }
             (Format::Json, Subject::Chain) => {
                 let memo = self.chained().ok_or(UNDONE)?;
-                let mut report = memo.run().report(memo.teller(), chain::memo::after(memo.scenario()));
+                let mut report = memo.run().report(memo.teller(), after(memo.scenario()));
                 report.log = memo.about().cloned();
                 let text = serde_json::to_string_pretty(&report).map_err(|error| error.to_string())?;
                 Ok(text + "\n")

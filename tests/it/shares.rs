@@ -172,7 +172,7 @@ fn other_programs_other_counts_and_other_runs_are_refused() {
     }
     let repeats = |part: &Part| match &part.found {
         Found::Detectors(made) => made.clone(),
-        Found::Thresholds(_) => panic!("of detectors"),
+        _ => panic!("of detectors"),
     };
     let made = detectors(comparison(4, 0.2), share(2, 2));
     for wrong in [repeats(&made)[1..].to_vec(), vec![repeats(&made)[0].clone(); 2]] {

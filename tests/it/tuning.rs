@@ -239,7 +239,7 @@ fn a_study_made_elsewhere_is_the_study() {
         Found::Thresholds(tallies) => {
             tallies.into_iter().for_each(|(batch, tally)| assert!(study.set(batch as usize, tally)));
         }
-        Found::Detectors(_) => panic!("it was asked for thresholds"),
+        _ => panic!("it was asked for thresholds"),
     };
     let mut runs = 0;
     while remote.step() {

@@ -2,6 +2,7 @@
 
 pub mod course;
 pub mod figure;
+pub mod placing;
 
 use crate::detect::chain::{
     Along, ChainContactFound, ChainEvent, ChainJudged, ChainMethod, ChainSettings, judge_chain,

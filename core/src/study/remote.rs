@@ -2,6 +2,8 @@
 //!
 //! A worker on the page has its own memory: it is told what to study and sends back what it has found.
 
+use super::chain::ChainRun;
+use super::chain::placing::{self, Part, Placing};
 use super::compare::{self, Compare, Piece};
 use super::tuning::tally::Tally;
 use super::tuning::{self, Study};
@@ -33,6 +35,8 @@ pub enum Work {
         /// The pieces to make, in this order.
         pieces: Vec<Piece>,
     },
+    /// The contacts of an experiment with several segments, told and placed.
+    Contacts(placing::Spec),
 }
 
 /// What is answered: what has been found since the answer before.
@@ -51,6 +55,8 @@ pub enum Found {
     Thresholds(Vec<(u32, Tally)>),
     /// Pieces of the comparison.
     Detectors(Vec<compare::Made>),
+    /// Contacts, and estimates of them, in the order in which they were made.
+    Contacts(Vec<Part>),
 }
 
 impl Answer {
@@ -74,6 +80,7 @@ pub struct Remote {
 enum Making {
     Thresholds { study: Box<Study>, batches: Vec<usize>, grown: Vec<usize> },
     Detectors { compare: Box<Compare>, left: std::vec::IntoIter<Piece>, now: Option<Piece>, made: Vec<compare::Made> },
+    Contacts { run: Box<ChainRun>, time: f64, placing: Placing, made: Vec<Part> },
 }
 
 impl Remote {
@@ -92,6 +99,10 @@ impl Remote {
                 let compare = Box::new(Compare::new(spec).map_err(|error| error.to_string())?);
                 let mut left = pieces.into_iter();
                 Making::Detectors { compare, now: left.next(), left, made: Vec::new() }
+            }
+            Work::Contacts(spec) => {
+                let run = Box::new(spec.run()?);
+                Making::Contacts { placing: Placing::new(&run), run, time: spec.time, made: Vec::new() }
             }
         };
         Ok(Self { id, making })
@@ -115,6 +126,11 @@ impl Remote {
                     *now = left.next();
                 }
             }
+            Making::Contacts { run, time, placing, made } => {
+                let Some(part) = placing.make(run, *time) else { return false };
+                placing.add(part.clone());
+                made.push(part);
+            }
         }
         true
     }
@@ -130,6 +146,7 @@ impl Remote {
                 Found::Thresholds(std::mem::take(grown).into_iter().map(tally).collect())
             }
             Making::Detectors { made, .. } => Found::Detectors(std::mem::take(made)),
+            Making::Contacts { made, .. } => Found::Contacts(std::mem::take(made)),
         };
         postcard::to_allocvec(&Answer { id: self.id, found }).map_err(|error| error.to_string())
     }

@@ -4,61 +4,36 @@ use std::rc::Rc;
 
 use crate::app::chain::log::Opened;
 use crate::app::charts::notation::number;
+use crate::app::helper::{Asking, Helper, Turn};
 use crate::app::memo::MAX_SAMPLES;
 use crate::app::stages::viewport::subject::Subject;
-use centrode_core::detect::chain::{ChainContactFound, ChainEstimate, ChainMethod};
+use centrode_core::detect::chain::{ChainEstimate, ChainMethod};
 use centrode_core::model::chain::Unsettled;
 use centrode_core::model::chain::path::What;
-use centrode_core::scenario::chain::{ChainDraft, Tracked};
+use centrode_core::scenario::chain::ChainDraft;
 use centrode_core::scenario::preset::CHAINS;
 use centrode_core::scenario::{ChainPlan, ChainScenario};
 use centrode_core::study::about::ChainAbout;
 use centrode_core::study::chain::ChainRun;
 use centrode_core::study::chain::course;
-
-/// Times after an alarm at which a contact is placed, s.
-const AFTER: [f64; 3] = [0.1, 0.5, 1.0];
-
-/// Those at which one of an experiment is placed: once where only the last disk carries a tracker, for that takes long.
-#[must_use]
-pub fn after(scenario: &ChainScenario) -> &'static [f64] {
-    match scenario.tracked {
-        Tracked::All => &AFTER,
-        Tracked::Tip => &AFTER[1..2],
-    }
-}
-
-/// A contact that is told, with what is known of it so far.
-#[derive(Debug, Clone)]
-pub struct Told {
-    /// Its alarm, and which disks deviate.
-    pub found: ChainContactFound,
-    /// What is known at each of [`after`]; none where the run or the contact ends before, or it cannot be placed.
-    pub estimates: Vec<Option<ChainEstimate>>,
-}
-
-impl Told {
-    /// What is known of it at a time (s).
-    #[must_use]
-    pub fn at(&self, time: f64) -> Option<&ChainEstimate> {
-        self.estimates.iter().flatten().rfind(|estimate| estimate.time <= time)
-    }
-}
+use centrode_core::study::chain::placing::{Placing, Spec, Told};
+use centrode_core::study::remote::{Found, Work};
 
 /// The last run that was possible, and why the wanted one is not.
 pub struct Memo {
     wanted: ChainDraft,
     log: Option<Rc<Opened>>,
     ran: Ran,
-    teller: Option<ChainMethod>,
-    /// The contacts that are told; none while they are still to be found.
-    told: Option<Vec<Told>>,
+    placing: Placing,
+    asking: Asking,
     version: u64,
     refusal: Option<String>,
 }
 
 /// What came of a text, or of a log that is judged by it.
 struct Ran {
+    /// What was run.
+    draft: ChainDraft,
     scenario: ChainScenario,
     run: ChainRun,
     /// How the log was read; none of a simulation.
@@ -73,7 +48,7 @@ fn run(draft: &ChainDraft, log: Option<&Rc<Opened>>) -> Result<Ran, String> {
             assembled.map_err(|error| format!("The log does not fit what is set: {}", error.without_flags()))?;
         let run = ChainRun::recorded(&assembled).map_err(|unsettled| begins(&unsettled))?;
         let about = Some(ChainAbout::new(&assembled));
-        return Ok(Ran { scenario: assembled.scenario, run, about });
+        return Ok(Ran { draft: draft.clone(), scenario: assembled.scenario, run, about });
     }
     let (end, rate) = (scenario.common().motion.end, scenario.common().loop_rate);
     if end * rate > MAX_SAMPLES as f64 {
@@ -84,7 +59,7 @@ fn run(draft: &ChainDraft, log: Option<&Rc<Opened>>) -> Result<Ran, String> {
         ));
     }
     let plan = ChainPlan::new(&scenario).map_err(|unsettled| begins(&unsettled))?;
-    Ok(Ran { scenario, run: ChainRun::new(plan), about: None })
+    Ok(Ran { draft: draft.clone(), scenario, run: ChainRun::new(plan), about: None })
 }
 
 fn begins(unsettled: &Unsettled) -> String {
@@ -92,18 +67,18 @@ fn begins(unsettled: &Unsettled) -> String {
 }
 
 impl Memo {
-    /// Runs what is set, or judges a log by it; the first preset in place of what is refused.
+    /// Runs what is set, or judges a log by it; the first preset in place of what is refused. `helper` places contacts, if there is one.
     ///
     /// # Panics
     /// When the first preset is impossible, which a test excludes.
     #[must_use]
-    pub fn new(draft: &ChainDraft, log: Option<&Rc<Opened>>) -> Self {
+    pub fn new(draft: &ChainDraft, log: Option<&Rc<Opened>>, helper: Option<Box<dyn Helper>>) -> Self {
         let (ran, refusal) = match run(draft, log) {
             Ok(made) => (made, None),
             Err(why) => (run(&ChainDraft::of(&CHAINS[0]), None).expect("the first preset is possible"), Some(why)),
         };
-        let teller = ran.run.judged.teller();
-        Self { wanted: draft.clone(), log: log.cloned(), ran, teller, told: None, version: 0, refusal }
+        let (placing, asking) = (Placing::new(&ran.run), Asking::new(helper));
+        Self { wanted: draft.clone(), log: log.cloned(), ran, placing, asking, version: 0, refusal }
     }
 
     /// Brings the run up to date. Returns whether what is set had changed.
@@ -115,41 +90,61 @@ impl Memo {
         (self.wanted, self.log) = (draft.clone(), log.cloned());
         match run(draft, log) {
             Ok(ran) => {
+                self.placing = Placing::new(&ran.run);
                 (self.ran, self.refusal) = (ran, None);
-                (self.teller, self.told) = (self.ran.run.judged.teller(), None);
                 self.version += 1;
+                self.asking.rest();
             }
             Err(why) => self.refusal = Some(why),
         }
         true
     }
 
-    /// Finds the contacts, then places one of them, first what is known at a time (s). Returns whether more is to be done.
+    /// Nobody looks: what a helper does for it ends.
+    pub fn rest(&mut self) {
+        self.asking.rest();
+    }
+
+    /// Takes what has come and asks for what is missing, or finds the contacts and places one of them, first what is known at a time (s). Returns
+    /// whether the next frame should come at once for it.
     pub fn work(&mut self, time: f64) -> bool {
-        let Some(told) = &mut self.told else {
-            let found = self.teller.map_or_else(Vec::new, |teller| self.ran.run.judged.contacts(teller, &[]));
-            self.told = Some(found.into_iter().map(|found| Told { found, estimates: Vec::new() }).collect());
-            return self.is_working();
+        let placing = &mut self.placing;
+        if placing.progress().is_complete() {
+            return false;
+        }
+        let taken = self.asking.take(|found| match found {
+            Found::Contacts(parts) => parts.into_iter().all(|part| placing.add(part)),
+            _ => true,
+        });
+        // Nobody else has the log.
+        let turn = match taken {
+            Ok(()) if self.ran.about.is_some() => Ok(Turn::Make),
+            taken => taken.and_then(|()| {
+                let scenario = || self.ran.draft.to_toml();
+                self.asking.ask(placing.progress(), || Work::Contacts(Spec { scenario: scenario(), time }))
+            }),
         };
-        let Some(teller) = self.teller else { return false };
-        let times = after(&self.ran.scenario);
-        let due = |told: &Told| told.estimates.len() < times.len();
-        let seen = told.iter().rposition(|told| due(told) && told.found.alarm <= time);
-        let Some(place) = seen.or_else(|| told.iter().position(due)) else { return false };
-        // What is read once the next contact has begun says nothing of this one alone.
-        let next = told.get(place + 1).map_or(f64::INFINITY, |next| next.found.alarm);
-        let one = &mut told[place];
-        let after = times[one.estimates.len()];
-        let made = (one.found.alarm + after < next).then(|| self.ran.run.judged.estimate(teller, &one.found, after));
-        one.estimates.push(made.flatten());
-        self.is_working()
+        match turn {
+            Ok(Turn::Make) => {
+                if let Some(part) = placing.make(&self.ran.run, time) {
+                    placing.add(part);
+                }
+                self.is_working()
+            }
+            Ok(Turn::Wait) => false,
+            Err(why) => {
+                self.asking.give_up(why);
+                // Whoever makes it now begins with it anew.
+                self.placing = Placing::new(&self.ran.run);
+                true
+            }
+        }
     }
 
     /// Whether contacts are still to be found or placed.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        let due = |told: &Told| told.estimates.len() < after(&self.ran.scenario).len();
-        self.told.as_ref().is_none_or(|told| told.iter().any(due))
+        !self.placing.progress().is_complete()
     }
 
     /// What is set: the last that was possible.
@@ -173,13 +168,13 @@ impl Memo {
     /// The contacts that are told, as far as they have been found.
     #[must_use]
     pub fn told(&self) -> &[Told] {
-        self.told.as_deref().unwrap_or_default()
+        self.placing.told()
     }
 
     /// The detector that tells of contacts.
     #[must_use]
     pub fn teller(&self) -> Option<ChainMethod> {
-        self.teller
+        self.placing.teller()
     }
 
     /// What is known at a time (s), with the number of each contact from 0.
@@ -253,4 +248,56 @@ pub fn lead_in(scenario: &ChainScenario) -> f64 {
     let starts = scenario.segments.iter().flat_map(|segment| [segment.motion().start, segment.delta_start]);
     (starts.fold(f64::INFINITY, f64::min) - crate::app::state::LEAD_IN)
         .clamp(0.0, scenario.common().motion.end.max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::helper::near::Near;
+
+    fn helped(near: &Near) -> Memo {
+        Memo::new(&ChainDraft::of(&CHAINS[0]), None, Some(Box::new(near.clone())))
+    }
+
+    fn here() -> Memo {
+        let mut here = Memo::new(&ChainDraft::of(&CHAINS[0]), None, None);
+        while here.work(0.0) {}
+        here
+    }
+
+    #[test]
+    fn a_helper_places_what_is_placed_here() {
+        let near = Near::default();
+        let mut there = helped(&near);
+        while there.is_working() {
+            assert!(!there.work(0.0), "the page has nothing to do");
+        }
+        assert_eq!(near.0.borrow().asked, 1);
+        assert_eq!(there.told(), here().told());
+        assert!(!there.told().is_empty());
+        // Another experiment is asked for anew, and nothing is while nobody looks.
+        let other = ChainDraft::of(&CHAINS[0]).overridden(["seed=2"]).expect("possible");
+        assert!(there.update(&other, None) && there.is_working());
+        there.work(0.0);
+        assert_eq!(near.0.borrow().asked, 2);
+        there.rest();
+        assert!(near.0.borrow().remote.is_none());
+    }
+
+    #[test]
+    fn without_a_helper_that_can_be_relied_on_the_page_places() {
+        let told = here().told().to_vec();
+        for nonsense in [false, true] {
+            let near = Near::default();
+            let mut there = helped(&near);
+            there.work(0.0);
+            let mut desk = near.0.borrow_mut();
+            (desk.broken, desk.babbles) = (!nonsense, nonsense);
+            drop(desk);
+            while there.is_working() {
+                there.work(0.0);
+            }
+            assert_eq!(there.told(), told);
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! What a run of several segments came to, in words and figures.
 
-use crate::app::chain::memo::{Memo, Told};
+use crate::app::chain::memo::Memo;
 use crate::app::charts::notation::number;
 use crate::app::panels::readout;
 use crate::app::panels::transport::{Mark, Track};
@@ -10,6 +10,7 @@ use centrode_core::detect::chain::{ChainEstimate, ChainMethod};
 use centrode_core::model::chain::path::What;
 use centrode_core::scenario::chain::Tracked;
 use centrode_core::study::chain::ChainRun;
+use centrode_core::study::chain::placing::Told;
 
 fn millimetres(length: f64) -> String {
     number(length * 1e3, 1)

@@ -9,12 +9,11 @@ use std::rc::Rc;
 pub struct Lent(Rc<RefCell<Box<dyn Helper>>>);
 
 impl Lent {
-    /// Two shares of one helper. Who has nothing to ask must not take the answers of the other.
+    /// Shares of one helper. Who has nothing to ask must not take the answers of the others.
     #[must_use]
-    pub fn two(helper: Option<Box<dyn Helper>>) -> [Option<Box<dyn Helper>>; 2] {
+    pub fn shares<const N: usize>(helper: Option<Box<dyn Helper>>) -> [Option<Box<dyn Helper>>; N] {
         let lent = helper.map(|helper| Self(Rc::new(RefCell::new(helper))));
-        let share = || lent.clone().map(|lent| Box::new(lent) as Box<dyn Helper>);
-        [share(), share()]
+        std::array::from_fn(|_| lent.clone().map(|lent| Box::new(lent) as Box<dyn Helper>))
     }
 }
 

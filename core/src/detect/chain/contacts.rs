@@ -11,9 +11,10 @@ use crate::model::chain::{Rod, Torsion, stiffnesses};
 use crate::scenario::chain::Tracked;
 use crate::scenario::{Estimator, Kind};
 use libm::exp;
+use serde::{Deserialize, Serialize};
 
 /// A contact that alarms tell of.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChainContactFound {
     /// The first alarm of it, s.
     pub alarm: f64,
@@ -28,7 +29,7 @@ pub struct ChainContactFound {
 }
 
 /// What is known of a contact some time after its alarm.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChainEstimate {
     /// Time since the alarm, s.
     pub after: f64,
@@ -57,7 +58,7 @@ pub struct ChainEstimate {
 }
 
 /// An interval along the whole backbone that holds the contact with a probability of 95 %, 2.5 % on either side.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Along {
     /// m.
     pub mean: f64,

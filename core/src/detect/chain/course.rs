@@ -4,6 +4,7 @@ use crate::model::chain::pressed::Pressed;
 use crate::model::chain::{Bends, Contact, Rod, bends, configuration, free};
 use crate::model::{Configuration, Mat3, Pose, Vec3};
 use libm::sincos;
+use serde::{Deserialize, Serialize};
 
 /// A contact begins where something is told to move by more than this (rad) from one reading to the next.
 const STILL: f64 = 1e-6;
@@ -12,7 +13,7 @@ const SMOOTHED: usize = 8;
 
 /// A contact that is known: its segment, its place on it (m), its plane's tilt about the tangent from the bending plane (rad), and the reading
 /// at which it was met.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct KnownContact {
     pub segment: usize,
     pub at: f64,

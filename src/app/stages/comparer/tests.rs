@@ -55,7 +55,7 @@ fn a_helper_gives_what_the_frames_and_the_command_give() {
 #[test]
 fn two_studies_share_a_helper_and_leave_each_others_answers() {
     let near = Near::default();
-    let [first, second] = Lent::two(Some(Box::new(near.clone())));
+    let [first, second] = Lent::shares(Some(Box::new(near.clone())));
     let (mut tuner, mut comparer) = (Tuner::new(first), Comparer::new(second));
     tuner.update(Some(&bench()), 3, false);
     for _ in 0..3 {
