@@ -25,8 +25,8 @@ struct Case {
     name: &'static str,
     title: &'static str,
     preset: &'static str,
-    /// Which of its contacts is asked for, and when that begins, s.
-    contact: (usize, f64),
+    /// Which of its contacts is asked for, which of those found is to be it, and when it begins, s.
+    contact: (usize, usize, f64),
     sets: &'static [&'static str],
     /// Whether planes stand with any tilt, each as likely as the others.
     tilted: bool,
@@ -42,10 +42,10 @@ const STILL: [&str; 4] = [
 ];
 
 const ALL: Case =
-    Case { name: "all", title: "all disks", preset: "three-segments", contact: (0, 5.8), sets: &[], tilted: false };
+    Case { name: "all", title: "all disks", preset: "three-segments", contact: (0, 0, 5.8), sets: &[], tilted: false };
 const TWO: Case = Case { preset: "two-contacts", ..ALL };
 
-const CASES: [Case; 9] = [
+const CASES: [Case; 10] = [
     ALL,
     Case { name: "play", title: "all disks, 0.3° of play", sets: &[PLAY], ..ALL },
     Case {
@@ -61,8 +61,15 @@ const CASES: [Case; 9] = [
     },
     Case { name: "tilted", title: "all disks, planes of any tilt", tilted: true, ..ALL },
     Case { name: "clamped", title: "all disks, clamps where what is below rests", sets: &STILL, ..ALL },
-    Case { name: "first", title: "all disks, the first of two contacts", contact: (0, 5.2), ..TWO },
-    Case { name: "second", title: "all disks, the second of two contacts", contact: (1, 6.8), ..TWO },
+    Case { name: "first", title: "all disks, the first of two contacts", contact: (0, 0, 5.2), ..TWO },
+    Case { name: "second", title: "all disks, the second of two contacts", contact: (1, 1, 6.8), ..TWO },
+    Case {
+        name: "together",
+        title: "all disks, the outer of two contacts that begin together",
+        contact: (1, 0, 5.2),
+        sets: &["contact[1].time=5.2"],
+        ..TWO
+    },
     Case { name: "tip", title: "the tip alone", sets: &[TIP], ..ALL },
     Case { name: "tip-play", title: "the tip alone, 0.3° of play", sets: &[TIP, PLAY], ..ALL },
 ];
@@ -97,7 +104,7 @@ fn outcome(seed: u64, case: &Case) -> Result<Outcome, String> {
     let mut normal = Normal::new(seed, Source::Calibration);
     let mut drawn = || 0.015 + 0.005 * normal.symmetric();
     let mut all: Vec<String> = case.sets.iter().map(|set| (*set).to_owned()).collect();
-    let (contact, begins) = case.contact;
+    let (contact, place, begins) = case.contact;
     if case.preset == ALL.preset && case.name != "clamped" {
         all.push(format!("contact[1].segment={}", seed % 3 + 1));
     }
@@ -113,7 +120,7 @@ fn outcome(seed: u64, case: &Case) -> Result<Outcome, String> {
     let begun = Instant::now();
     let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &AFTER);
     let spent = begun.elapsed();
-    let alarm = found.get(contact).filter(|found| found.alarm >= begins);
+    let alarm = found.get(place).filter(|found| found.alarm >= begins);
     let early = alarm.is_none();
     let truth = at + scenario.segments[..segment].iter().map(|of| of.alone.scenario().robot.length).sum::<f64>();
     let told = AFTER.iter().map(|after| {

@@ -9,11 +9,18 @@ use crate::scenario::text::number;
 use serde::{Deserialize, Serialize};
 use toml::{Table, Value};
 
-/// The text of an experiment that can be read: [`ChainDraft::scenario`] never fails on what the functions here give.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The text of an experiment that can be read: [`ChainDraft::scenario`] never fails on what the functions here give. Numbers that are written
+/// in two ways are equal.
+#[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct ChainDraft {
     table: Table,
+}
+
+impl PartialEq for ChainDraft {
+    fn eq(&self, other: &Self) -> bool {
+        same_table(&self.table, &other.table)
+    }
 }
 
 /// One change of a text. Paths are those of `--set`: `segment[2].motion.theta_end`, `contact[1]`.
@@ -174,10 +181,18 @@ fn listed(part: &str) -> Option<(&str, usize)> {
 
 /// Whether two values say the same, whole or not.
 fn same(a: &Value, b: &Value) -> bool {
-    match (super::group::float(a), super::group::float(b)) {
-        (Some(a), Some(b)) => a.to_bits() == b.to_bits(),
-        _ => a == b,
+    match (a, b) {
+        (Value::Table(a), Value::Table(b)) => same_table(a, b),
+        (Value::Array(a), Value::Array(b)) => a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b)),
+        _ => match (super::group::float(a), super::group::float(b)) {
+            (Some(a), Some(b)) => a.to_bits() == b.to_bits(),
+            _ => a == b,
+        },
     }
+}
+
+fn same_table(a: &Table, b: &Table) -> bool {
+    a.len() == b.len() && a.iter().all(|(key, a)| b.get(key).is_some_and(|b| same(a, b)))
 }
 
 fn differ(path: &str, base: Option<&Value>, own: &Value, out: &mut Vec<(String, String)>) {
