@@ -9,8 +9,9 @@ export function studies(core, module) {
   let worker = null;
   let replaced = false;
   let failed = false;
-  // What it is to make, until that is made.
+  // What it is to make, until that is made, and its number.
   let asked = null;
+  let number = 0;
   const silent = silence(() => fail("it does not answer"));
 
   function end() {
@@ -51,7 +52,8 @@ export function studies(core, module) {
     made.onmessage = its(({ data }) => {
       silent.heard();
       if (!(data?.answer instanceof Uint8Array)) return fail(data?.failed ?? "it sent something that is not an answer");
-      if (data.done) {
+      // The end of what was asked before is none of this.
+      if (data.done && data.number === number) {
         asked = null;
         silent.end();
       }
@@ -65,7 +67,7 @@ export function studies(core, module) {
     asked = request ?? null;
     try {
       if (!worker) start();
-      worker.postMessage({ request: asked });
+      worker.postMessage({ request: asked, number: ++number });
       if (asked === null) silent.end();
       else silent.begin();
     } catch (error) {

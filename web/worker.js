@@ -4,12 +4,13 @@ import init, { StudyWorker } from "./centrode.js";
 const SLICE_MS = 30;
 const ANSWER_MS = 120;
 let study = null;
+let number = 0;
 let looping = false;
 let ready = null;
 
 addEventListener("message", ({ data }) => {
   if ("module" in data) ready = init({ module_or_path: data.module });
-  else ready.then(() => begin(data.request)).catch(fail);
+  else ready.then(() => begin(data)).catch(fail);
 });
 
 function fail(error) {
@@ -18,8 +19,9 @@ function fail(error) {
 }
 
 /// Drops what is being made and begins what is asked, if anything is.
-function begin(request) {
+function begin({ request, number: its }) {
   study?.free();
+  number = its;
   study = request === null ? null : new StudyWorker(request);
   if (study && !looping) loop().catch(fail);
 }
@@ -35,7 +37,7 @@ async function loop() {
       while (left && performance.now() < until) left = made.step();
       if (!left || performance.now() - answered > ANSWER_MS) {
         const answer = made.answer();
-        postMessage({ answer, done: !left }, [answer.buffer]);
+        postMessage({ answer, number, done: !left }, [answer.buffer]);
         answered = performance.now();
       }
       if (!left) {

@@ -66,7 +66,13 @@ pub fn chain(bytes: &[u8]) {
     let Ok(plan) = ChainPlan::new(&scenario) else { return };
     let run = ChainRun::new(plan);
     if placed {
-        assert!(run.report(None, &[]).end.is_finite());
+        let found = run.judged.teller().map_or_else(Vec::new, |teller| run.judged.contacts(teller, &[0.5]));
+        for estimate in found.iter().flat_map(|found| &found.estimates) {
+            let (place, along) = (&estimate.place, &estimate.along);
+            assert!(place.mean.is_finite() && along.low <= along.mean && along.mean <= along.high, "{estimate:?}");
+            let all: f64 = estimate.nothing + estimate.probabilities.iter().sum::<f64>();
+            assert!((all - 1.0).abs() < 1e-9 && estimate.segment < scenario.segments.len(), "{estimate:?}");
+        }
     }
     for event in &run.judged.events {
         assert!(event.raised.is_finite() && event.segment < scenario.segments.len(), "{event:?}");

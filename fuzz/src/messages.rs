@@ -85,7 +85,7 @@ fn answer(bytes: &[u8]) {
         Ok(Answer { found: Found::Contacts(parts), .. }) => {
             let mut placing = PLACING.clone();
             let fit = parts.into_iter().filter(|part| placing.add(part.clone())).count() as u64;
-            assert_eq!(placing.progress().done, fit);
+            assert!(placing.progress().done <= fit);
         }
         Err(_) => {}
     }

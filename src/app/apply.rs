@@ -216,11 +216,8 @@ impl App {
 
     /// Keeps the values of controls that a change switches off.
     pub(super) fn remember(&mut self, next: &Scenario) {
-        for control in controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|c| c.has_off()) {
-            if let (Some(value), None) = (control.value(&self.state.scenario), control.value(next)) {
-                self.state.remembered.insert(control.key.into(), value);
-            }
-        }
+        let off = switched_off(&self.state.scenario, next).map(|(key, value)| (key.into(), value));
+        self.state.remembered.extend(off);
     }
 
     fn switch(&mut self, control: &'static Control, on: bool) {
@@ -247,4 +244,10 @@ impl App {
             Ok(())
         });
     }
+}
+
+/// What is switched off from one experiment to another: key, and the value that was shown.
+pub fn switched_off<'s>(now: &'s Scenario, next: &'s Scenario) -> impl Iterator<Item = (&'static str, f64)> + 's {
+    let controls = controls::table::GROUPS.iter().flat_map(|group| group.controls).filter(|of| of.has_off());
+    controls.filter_map(|of| of.value(now).filter(|_| of.value(next).is_none()).map(|value| (of.key, value)))
 }

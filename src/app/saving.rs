@@ -15,7 +15,6 @@ use centrode_core::chart::csv::csv;
 use centrode_core::scenario::Scenario;
 use centrode_core::scenario::link::Page;
 use centrode_core::study::chain::figure::over_time;
-use centrode_core::study::chain::placing::after;
 use centrode_core::study::course::between;
 use centrode_core::study::export::{name, signed};
 use centrode_core::study::figure::Number;
@@ -237,8 +236,8 @@ impl App {
                 Ok(paper::svg(&signed(self.chart(subject)?, &self.made_of(subject).1, page)))
             }
             (Format::Json, Subject::Chain) => {
-                let memo = self.chained().ok_or(UNDONE)?;
-                let mut report = memo.run().report(memo.teller(), after(memo.scenario()));
+                let memo = self.chained().filter(|memo| !memo.is_working()).ok_or(UNDONE)?;
+                let mut report = memo.run().report_of(memo.teller(), &memo.found());
                 report.log = memo.about().cloned();
                 let text = serde_json::to_string_pretty(&report).map_err(|error| error.to_string())?;
                 Ok(text + "\n")

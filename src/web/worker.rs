@@ -1,4 +1,4 @@
-//! Studies in a Web Worker: both ends.
+//! Studies, and the placing of contacts on several segments, in a Web Worker: both ends.
 //!
 //! The worker loads this same module and drives a [`StudyWorker`]; the page's end is a [`Helper`] that hands requests to
 //! the page (`web/studies.js`) and keeps what comes back until the next frame.

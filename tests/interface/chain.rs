@@ -118,6 +118,44 @@ fn contacts_are_added_moved_and_removed() {
 }
 
 #[test]
+fn what_a_preset_says_in_other_words_comes_back_with_its_reset() {
+    for (preset, label) in [("two-contacts", "Place on the segment"), ("buckling", "Stands from")] {
+        let mut page = chained(TALL, preset);
+        let before = scenario(&page);
+        slide(&mut page, label, 7.0);
+        assert_ne!(scenario(&page), before, "{label}");
+        click(&mut page, &format!("Reset {label}"));
+        assert_eq!(scenario(&page), before, "{label}");
+    }
+}
+
+#[test]
+fn a_shorter_robot_is_looked_at_where_it_has_a_segment() {
+    let mut page = chained(TALL, "three-segments");
+    page.get_all_by_role_and_label(Role::RadioButton, "Segment 3").next().expect("a segment").click();
+    page.run_steps(2);
+    let shorter = find_chain("three-segments").expect("shipped").toml.split("[[segment]]").collect::<Vec<_>>();
+    let contact = "[[contact]]\nsegment = 2\ndisk = 2\ntime = 5.8\n";
+    let text = format!("{}[[segment]]{}[[segment]]{}{contact}", shorter[0], shorter[1], shorter[2]);
+    page.state_mut().as_mut().expect("built").opened("shorter.toml", Ok(text.into_bytes()));
+    page.run_steps(3);
+    assert_eq!(scenario(&page).segments.len(), 2, "{:?}", app(&page).notice());
+    slide(&mut page, "θL at the end", 60.0);
+    assert!((scenario(&page).segments[1].motion().theta_end.to_degrees() - 60.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_threshold_that_is_switched_off_comes_back_as_it_was() {
+    let mut page = chained(TALL, "three-segments");
+    slide(&mut page, "h (CUSUM)", 33.0);
+    let set = scenario(&page);
+    click(&mut page, "h (CUSUM) on");
+    assert_ne!(scenario(&page), set);
+    click(&mut page, "h (CUSUM) on");
+    assert_eq!(scenario(&page), set);
+}
+
+#[test]
 fn a_clamp_under_moving_segments_is_refused_and_says_why() {
     let mut page = chained(TALL, "three-segments");
     let before = scenario(&page);

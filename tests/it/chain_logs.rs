@@ -444,6 +444,14 @@ fn what_is_dropped_is_told_with_its_disk_and_gaps_stay_gaps() {
     assert_eq!(bad[0]["first"]["line"], 342);
     let found = report["found"].as_array().expect("found");
     assert_eq!(found.len(), 2, "a gap is no contact: {found:?}");
+    // What the others show in the gap belongs to no other instant of the one that was hidden.
+    for (contact, segment) in found.iter().zip([2, 3]) {
+        let estimates = contact["estimates"].as_array().expect("estimates");
+        let last = estimates.last().expect("placed");
+        assert_eq!(last["segment"], segment, "{contact}");
+        let [low, high] = ["low", "high"].map(|key| last[key].as_f64().expect("a place"));
+        assert!(low <= 0.015 && 0.015 <= high && high - low < 2e-3, "{contact}");
+    }
 }
 
 /// What a command refuses to do, in its own words.

@@ -52,6 +52,12 @@ impl ChainRun {
     pub fn report(&self, detector: Option<ChainMethod>, after: &[f64]) -> ChainReport {
         let detector = detector.or_else(|| self.judged.teller());
         let found = detector.map_or_else(Vec::new, |detector| self.judged.contacts(detector, after));
+        self.report_of(detector, &found)
+    }
+
+    /// The same of contacts that a detector tells of.
+    #[must_use]
+    pub fn report_of(&self, detector: Option<ChainMethod>, found: &[ChainContactFound]) -> ChainReport {
         ChainReport {
             segments: self.recording.segments(),
             contacts: self.contacts(),

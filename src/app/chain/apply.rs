@@ -1,6 +1,7 @@
 //! Carrying out what is asked of segments in series.
 
 use crate::app::App;
+use crate::app::apply::switched_off;
 use crate::app::chain::ChainState;
 use crate::app::chain::memo::lead_in;
 use crate::app::chain::own::{Of, Own};
@@ -71,10 +72,15 @@ impl App {
             Wish::Enter(own, text) => self.set_own(own, own.read(&text)),
             Wish::Switch(own, on) => self.switch_own(own, on),
             Wish::Reset(own) => {
-                let path = own.path(self.place_of(own));
-                let base = ChainDraft::of(self.state.chain.preset()).get(&path).cloned();
-                let change = base.map_or_else(|| Change::Remove(path.clone()), |base| Change::Set(path.clone(), base));
-                self.change_draft(&path, [change]);
+                let place = self.place_of(own);
+                let path = own.path(place);
+                let base = ChainDraft::of(self.state.chain.preset());
+                let back = |path: String| {
+                    let change = base.get(&path).cloned();
+                    change.map_or_else(|| Change::Remove(path.clone()), |base| Change::Set(path.clone(), base))
+                };
+                let instead = instead(own, place).filter(|instead| base.get(instead).is_some());
+                self.change_draft(&path, [path.clone()].into_iter().chain(instead).map(back));
             }
             Wish::PutOn(segment) => self.put_on(segment),
             Wish::Clamp(clamp) => self.clamp(clamp),
@@ -96,11 +102,14 @@ impl App {
     }
 
     /// Shows an experiment with several segments from its beginning.
-    pub(in crate::app) fn load_chain(&mut self, chain: ChainState) {
+    pub(in crate::app) fn load_chain(&mut self, mut chain: ChainState) {
         self.chain.notes.clear();
         self.chain.remembered.clear();
         if let Ok(scenario) = chain.draft.scenario() {
             self.state.time = lead_in(&scenario);
+            // What was looked at may be of a longer robot.
+            chain.segment = chain.segment.min(scenario.segments.len().saturating_sub(1));
+            chain.contact = chain.contact.min(scenario.contacts.len().saturating_sub(1));
         }
         self.state.chain = chain;
     }
@@ -134,15 +143,7 @@ impl App {
         match value {
             Ok(Some(value)) => {
                 let mut changes = vec![Change::Set(path.clone(), Toml::Float(value))];
-                if own.of == Of::Contact {
-                    // A place can be given as a disk, a time as a bend.
-                    let instead = match own.key {
-                        "at" => Some("disk"),
-                        "time" => Some("bend"),
-                        _ => None,
-                    };
-                    changes.extend(instead.map(|key| Change::Remove(format!("contact[{}].{key}", place + 1))));
-                }
+                changes.extend(instead(own, place).map(Change::Remove));
                 self.change_draft(&path, changes);
             }
             Ok(None) => self.switch_own(own, false),
@@ -237,11 +238,15 @@ impl App {
                     .map(|key| written(key, &after, chain.segment))
                     .collect();
                 let drafted = chain.draft.with(changes);
-                drafted.map_err(|refused| -> Refused { (path.clone(), refusal::of_chain(&refused)) })
+                let drafted = drafted.map_err(|refused| -> Refused { (path.clone(), refusal::of_chain(&refused)) })?;
+                Ok((drafted, switched_off(before, &after).collect::<Vec<_>>()))
             },
         );
         match made {
-            Ok(draft) => {
+            Ok((draft, off)) => {
+                let segment = self.state.chain.segment;
+                let off = off.into_iter().map(|(key, value)| (self::path(key, segment), value));
+                self.chain.remembered.extend(off);
                 self.chain.notes.remove(&path);
                 self.state.chain.draft = draft;
             }
@@ -256,6 +261,16 @@ impl App {
         let base = self.chain.base().and_then(|base| control.value(alone(base, chain.segment, control.key)));
         remembered.or(base).or_else(|| control.value(&Scenario::default()))
     }
+}
+
+/// The path of what else can stand in the place of a value: a place can be given as a disk, a time as a bend.
+fn instead(own: &Own, place: usize) -> Option<String> {
+    let key = match (own.of, own.key) {
+        (Of::Contact, "at") => "disk",
+        (Of::Contact, "time") => "bend",
+        _ => return None,
+    };
+    Some(format!("contact[{}].{key}", place + 1))
 }
 
 /// The detectors that an experiment with several segments can have.

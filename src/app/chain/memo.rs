@@ -7,7 +7,7 @@ use crate::app::charts::notation::number;
 use crate::app::helper::{Asking, Helper, Turn};
 use crate::app::memo::MAX_SAMPLES;
 use crate::app::stages::viewport::subject::Subject;
-use centrode_core::detect::chain::{ChainEstimate, ChainMethod};
+use centrode_core::detect::chain::{ChainContactFound, ChainEstimate, ChainMethod};
 use centrode_core::model::chain::Unsettled;
 use centrode_core::model::chain::path::What;
 use centrode_core::scenario::chain::ChainDraft;
@@ -171,6 +171,12 @@ impl Memo {
         self.placing.told()
     }
 
+    /// The same with what is known of each.
+    #[must_use]
+    pub fn found(&self) -> Vec<ChainContactFound> {
+        self.placing.found()
+    }
+
     /// The detector that tells of contacts.
     #[must_use]
     pub fn teller(&self) -> Option<ChainMethod> {
@@ -254,6 +260,8 @@ pub fn lead_in(scenario: &ChainScenario) -> f64 {
 mod tests {
     use super::*;
     use crate::app::helper::near::Near;
+    use centrode_core::scenario::preset;
+    use centrode_core::study::remote::{Remote, Request};
 
     fn helped(near: &Near) -> Memo {
         Memo::new(&ChainDraft::of(&CHAINS[0]), None, Some(Box::new(near.clone())))
@@ -282,6 +290,32 @@ mod tests {
         assert_eq!(near.0.borrow().asked, 2);
         there.rest();
         assert!(near.0.borrow().remote.is_none());
+    }
+
+    #[test]
+    fn placing_goes_on_where_somebody_looks_again_or_another_helper_begins_anew() {
+        let near = Near::default();
+        let draft = ChainDraft::of(preset::find_chain("two-contacts").expect("shipped"));
+        let mut there = Memo::new(&draft, None, Some(Box::new(near.clone())));
+        // Looked at until something has come, then not for a while.
+        while there.told().is_empty() {
+            there.work(0.0);
+        }
+        assert!(there.is_working());
+        there.rest();
+        there.work(0.0);
+        near.0.borrow_mut().remote = None;
+        // As the page does it: another is asked the same.
+        let scenario = draft.to_toml();
+        let request = Request { id: 3, work: Work::Contacts(Spec { scenario, time: 0.0 }) };
+        near.0.borrow_mut().remote = Some(Remote::new(&serde_json::to_string(&request).expect("JSON")).expect("one"));
+        while there.is_working() {
+            there.work(0.0);
+        }
+        let mut here = Memo::new(&draft, None, None);
+        while here.work(0.0) {}
+        assert_eq!(there.told(), here.told());
+        assert!(there.asking.has_helper(), "it is relied on still");
     }
 
     #[test]

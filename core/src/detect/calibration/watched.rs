@@ -34,6 +34,19 @@ impl Watched {
         self.readings.arrived.partition_point(|arrived| *arrived <= time + 1e-9).checked_sub(1)
     }
 
+    /// The readings that had arrived at some times (s, rising), without the others.
+    #[must_use]
+    pub fn of(&self, times: &[f64]) -> Self {
+        let among = |k: &usize| times.binary_search_by(|time| time.total_cmp(&self.readings.arrived[*k])).is_ok();
+        let kept: Vec<usize> = (0..self.heard.len().min(self.readings.arrived.len())).filter(among).collect();
+        let readings = Readings {
+            arrived: kept.iter().map(|&k| self.readings.arrived[k]).collect(),
+            commands: kept.iter().map(|&k| self.readings.commands[k]).collect(),
+            poses: kept.iter().map(|&k| self.readings.poses[k]).collect(),
+        };
+        Self { readings, model: self.model, heard: kept.iter().map(|&k| self.heard[k]).collect() }
+    }
+
     /// Places the contact that an alarm told of, from readings up to `until` without those of contacts that had been left before the
     /// alarm. `None` where nothing moved.
     #[must_use]

@@ -76,7 +76,8 @@ impl ChainJudged {
     #[must_use]
     pub fn contacts(&self, detector: ChainMethod, after: &[f64]) -> Vec<ChainContactFound> {
         let mut found: Vec<ChainContactFound> = Vec::new();
-        let mut known: Vec<KnownContact> = Vec::new();
+        // Each with its place in what is found.
+        let mut known: Vec<(usize, KnownContact)> = Vec::new();
         for event in self.events.iter().filter(|event| event.detector == detector) {
             let (segment, alarm) = (event.segment, event.raised);
             let standing = found.last().is_some_and(|last| self.stands(detector, last, event));
@@ -93,14 +94,17 @@ impl ChainJudged {
                 }
                 None => {
                     let clear = |last: &ChainContactFound| self.clear(segment, alarm).max(0.5 * (last.alarm + alarm));
-                    if standing && let Some(contact) = found.last().and_then(|last| self.settled(last, clear(last))) {
-                        known.push(contact);
+                    if standing
+                        && let Some(last) = found.last()
+                        && let Some(contact) = self.settled(detector, last, clear(last))
+                    {
+                        known.push((found.len() - 1, contact));
                     }
                     if !standing {
-                        known.clear();
+                        known.retain(|(of, _)| self.stands(detector, &found[*of], event));
                     }
                     let deviating = vec![segment];
-                    let (estimates, before) = (Vec::new(), known.clone());
+                    let (estimates, before) = (Vec::new(), known.iter().map(|(_, contact)| *contact).collect());
                     found.push(ChainContactFound { alarm, raised_by: segment, deviating, estimates, before });
                 }
             }
@@ -124,6 +128,17 @@ impl ChainJudged {
         })
     }
 
+    /// The segments whose alarms tell of a contact by a time (s).
+    fn deviating(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> Vec<usize> {
+        let deviates = |segment: &usize| {
+            self.events.iter().any(|event| {
+                let raised = (contact.alarm..=time).contains(&event.raised);
+                event.detector == detector && event.segment == *segment && raised
+            })
+        };
+        contact.deviating.iter().copied().filter(deviates).collect()
+    }
+
     /// What every segment showed up to a time (s).
     fn heard(&self, time: f64) -> Option<Heard<'_>> {
         if let Some(watch) = &self.whole {
@@ -131,7 +146,7 @@ impl ChainJudged {
         }
         let watched: Vec<&Watched> =
             self.segments.iter().map(|judged| judged.watched.as_ref()).collect::<Option<_>>()?;
-        Each::new(watched, self.rods(), time).map(Heard::Each)
+        Each::new(&watched, self.rods(), time).map(Heard::Each)
     }
 
     /// The nominal rods: distal backbones run inside proximal ones.
@@ -148,12 +163,13 @@ impl ChainJudged {
     }
 
     /// Whether what a segment alarms of had begun by an earlier alarm.
-    fn began_before(&self, known: &[KnownContact], segment: usize, alarm: f64, before: f64) -> bool {
+    fn began_before(&self, known: &[(usize, KnownContact)], segment: usize, alarm: f64, before: f64) -> bool {
+        let known: Vec<KnownContact> = known.iter().map(|(_, contact)| *contact).collect();
         let began = || {
             let heard = self.heard(alarm)?;
             let between = [heard.earliest(segment, heard.last())?, heard.last()];
             heard
-                .listen(known, between[0], None)?
+                .listen(&known, between[0], None)?
                 .to(segment, between, 0.0)?
                 .told(1, 1.0, f64::NEG_INFINITY)
                 .map(|placed| placed.estimate.began)
@@ -170,9 +186,12 @@ impl ChainJudged {
         clear().unwrap_or(f64::NEG_INFINITY)
     }
 
-    /// A contact as it is known at a later time (s).
-    fn settled(&self, contact: &ChainContactFound, time: f64) -> Option<KnownContact> {
-        let estimate = self.marginal(contact, time - contact.alarm, time)?;
+    /// A contact as it is known at a later time (s); none where it is likelier that nothing touches.
+    fn settled(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> Option<KnownContact> {
+        let estimate = self.marginal(detector, contact, time - contact.alarm, time)?;
+        if estimate.nothing > 0.5 {
+            return None;
+        }
         let began = self.heard(time)?.reading(estimate.began?);
         Some(KnownContact { segment: estimate.segment, at: estimate.place.mean, tilt: estimate.tilt?, began })
     }
@@ -184,19 +203,26 @@ impl ChainJudged {
         if self.end < time {
             return None;
         }
-        self.marginal(contact, after, time).or_else(|| self.by_centrode(detector, contact, after, time))
+        self.marginal(detector, contact, after, time).or_else(|| self.by_centrode(detector, contact, after, time))
     }
 
     /// Every segment is asked for the probability of all readings with a contact on it, over that without.
-    fn marginal(&self, contact: &ChainContactFound, after: f64, time: f64) -> Option<ChainEstimate> {
+    fn marginal(
+        &self,
+        detector: ChainMethod,
+        contact: &ChainContactFound,
+        after: f64,
+        time: f64,
+    ) -> Option<ChainEstimate> {
+        let deviating = self.deviating(detector, contact, time);
         let heard = self.heard(time)?;
         let latest = heard.at(contact.raised_by, contact.alarm)?;
         // As early as any segment that deviates by now leaves open.
-        let earliest = contact.deviating.iter().filter_map(|&segment| heard.earliest(segment, latest)).min();
+        let earliest = deviating.iter().filter_map(|&segment| heard.earliest(segment, latest)).min();
         let between = [earliest.or_else(|| heard.earliest(contact.raised_by, latest))?, latest];
         let parts = self.settings.segments[0].placing.beginnings;
         // The most distal one that deviates is likely the one.
-        let likely = contact.deviating.last().copied().unwrap_or(contact.raised_by);
+        let likely = deviating.last().copied().unwrap_or(contact.raised_by);
         let listening = heard.listen(&contact.before, between[0], None)?;
         let suspected = || {
             let Placed { estimate, tilt } = listening.to(likely, between, 0.0)?.told(1, 1.0, f64::NEG_INFINITY)?;
@@ -302,12 +328,7 @@ impl ChainJudged {
         if !matches!(detector, ChainMethod::Of(method) if method.places()) {
             return None;
         }
-        let deviates = |segment: &&usize| {
-            self.events
-                .iter()
-                .any(|event| event.detector == detector && event.segment == **segment && event.raised <= time)
-        };
-        let segment = *contact.deviating.iter().rev().find(deviates)?;
+        let segment = *self.deviating(detector, contact, time).last()?;
         let judged = self.segments.get(segment)?;
         let place = judged.estimate(&self.relative[segment], contact.alarm, after, Estimator::Eq24)?.location;
         let probabilities = (0..self.segments.len()).map(|k| f64::from(u8::from(k == segment))).collect();

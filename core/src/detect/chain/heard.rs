@@ -14,6 +14,7 @@ use crate::detect::calibration::watched::Watched;
 use crate::detect::calibration::{ACROSS, Command, STATES, STRETCH};
 use crate::model::Pose;
 use crate::model::chain::{Contact, Rod};
+use std::borrow::Cow;
 
 /// What was read up to some time.
 pub(super) enum Heard<'a> {
@@ -32,7 +33,7 @@ pub(super) struct Last<'a> {
 
 /// What was read on all end disks.
 pub(super) struct Each<'a> {
-    watched: Vec<&'a Watched>,
+    watched: Vec<Cow<'a, Watched>>,
     moments: Vec<Vec<Moment>>,
     rods: Vec<Rod>,
     last: usize,
@@ -162,7 +163,9 @@ impl<'a> Last<'a> {
 
 impl<'a> Each<'a> {
     /// Up to a time (s); `rods` are the nominal ones.
-    pub fn new(watched: Vec<&'a Watched>, rods: Vec<Rod>, time: f64) -> Option<Self> {
+    pub fn new(watched: &[&'a Watched], rods: Vec<Rod>, time: f64) -> Option<Self> {
+        watched.iter().map(|watched| watched.at(time)).collect::<Option<Vec<_>>>()?;
+        let watched = together(watched);
         let last = watched.iter().map(|watched| watched.at(time)).collect::<Option<Vec<_>>>()?.into_iter().min()?;
         let moments = watched
             .iter()
@@ -273,6 +276,21 @@ impl Asked<'_> {
             Ears::Last(heard) => jointly::estimate(heard, &hypotheses, kept, &question),
         }
     }
+}
+
+/// What was read of all end disks at once: a reading has one number for all of them. A gap in one tracker's is one of all.
+fn together<'a>(watched: &[&'a Watched]) -> Vec<Cow<'a, Watched>> {
+    let Some((first, others)) = watched.split_first() else { return Vec::new() };
+    let arrived = &first.readings.arrived;
+    if others.iter().all(|other| other.readings.arrived == *arrived) {
+        return watched.iter().map(|watched| Cow::Borrowed(*watched)).collect();
+    }
+    let of_all = |time: &&f64| {
+        let has = |other: &&Watched| other.readings.arrived.binary_search_by(|at| at.total_cmp(time)).is_ok();
+        others.iter().all(has)
+    };
+    let times: Vec<f64> = arrived.iter().filter(of_all).copied().collect();
+    watched.iter().map(|watched| Cow::Owned(watched.of(&times))).collect()
 }
 
 fn slices(poses: &[Vec<Pose>]) -> Vec<&[Pose]> {

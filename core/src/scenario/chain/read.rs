@@ -32,7 +32,7 @@ const REACHED: &str = "a bend that the motion of its segment passes";
 const IDLE: &str = "an offset with a normal alone, a tilt with a time or a bend";
 const TWICE: &str = "a place on the backbone that no other contact has";
 const ESTIMATION: &str =
-    "not with [[segment]]: places are those of planes, by all readings (estimation.beginnings alone holds)";
+    "not with [[segment]]: planes and clamps are weighed by all readings (estimation.beginnings alone holds)";
 const RESTS: &str = "a clamp only while the segments below it rest: what moves under a clamp changes the shape below it, which is not modelled";
 const BELOW: &str = "a contact that comes to stand above a clamp that holds by then: below, nothing moves any more";
 

@@ -45,6 +45,8 @@ pub enum Part {
     Estimate {
         /// Its number, from 0.
         contact: u32,
+        /// Which of the times at which it is placed, from 0.
+        number: u32,
         /// What is known.
         estimate: Option<ChainEstimate>,
     },
@@ -80,6 +82,17 @@ impl Placing {
         self.told.as_deref().unwrap_or_default()
     }
 
+    /// The same with what is known of each.
+    #[must_use]
+    pub fn found(&self) -> Vec<ChainContactFound> {
+        let known = |told: &Told| {
+            let mut found = told.found.clone();
+            found.estimates = told.estimates.iter().flatten().cloned().collect();
+            found
+        };
+        self.told().iter().map(known).collect()
+    }
+
     /// Finds the contacts, then places one of them, first what is known at a time (s). `None` where nothing is left to do.
     #[must_use]
     pub fn make(&self, run: &ChainRun, time: f64) -> Option<Part> {
@@ -94,12 +107,14 @@ impl Placing {
         // What is read once the next contact has begun says nothing of this one alone.
         let next = told.get(place + 1).map_or(f64::INFINITY, |next| next.found.alarm);
         let one = &told[place];
-        let after = self.after[one.estimates.len()];
+        let number = one.estimates.len();
+        let after = self.after[number];
         let made = (one.found.alarm + after < next).then(|| run.judged.estimate(teller, &one.found, after));
-        Some(Part::Estimate { contact: place as u32, estimate: made.flatten() })
+        Some(Part::Estimate { contact: place as u32, number: number as u32, estimate: made.flatten() })
     }
 
-    /// Takes over a part. Returns whether it fits: one that is known already, of a contact that is not told, or of another robot, is left.
+    /// Takes over a part. Returns whether it fits: one that is known already changes nothing, as whoever begins anew makes it again; one of a
+    /// contact that is not told, or of another robot, is left.
     pub fn add(&mut self, part: Part) -> bool {
         if !self.fits(&part) {
             return false;
@@ -109,12 +124,16 @@ impl Placing {
                 *told = Some(found.into_iter().map(|found| Told { found, estimates: Vec::new() }).collect());
                 true
             }
-            (Part::Estimate { contact, estimate }, Some(told)) => {
-                let count = self.after.len();
-                let one = told.get_mut(contact as usize).filter(|told| told.estimates.len() < count);
-                one.map(|one| one.estimates.push(estimate)).is_some()
+            (Part::Contacts(found), Some(told)) => told.iter().map(|told| &told.found).eq(&found),
+            (Part::Estimate { contact, number, estimate }, Some(told)) => {
+                let (count, number) = (self.after.len(), number as usize);
+                let Some(one) = told.get_mut(contact as usize).filter(|_| number < count) else { return false };
+                if number == one.estimates.len() {
+                    one.estimates.push(estimate);
+                }
+                number < one.estimates.len()
             }
-            _ => false,
+            (Part::Estimate { .. }, None) => false,
         }
     }
 
@@ -175,22 +194,24 @@ mod tests {
         let spec = Spec { scenario: find_chain("two-contacts").expect("shipped").toml.into(), time: 0.0 };
         let run = spec.run().expect("possible");
         let mut placing = Placing::new(&run);
-        assert!(!placing.add(Part::Estimate { contact: 0, estimate: None }), "nothing is told yet");
+        assert!(!placing.add(Part::Estimate { contact: 0, number: 0, estimate: None }), "nothing is told yet");
+        let mut all = Vec::new();
         while let Some(part) = placing.make(&run, 0.0) {
             assert!(!placing.progress().is_complete());
             // As it comes from elsewhere.
             let bytes = postcard::to_allocvec(&part).expect("bytes");
             assert_eq!(postcard::from_bytes::<Part>(&bytes).expect("a part"), part);
+            all.push(part.clone());
             assert!(placing.add(part));
         }
         assert!(placing.progress().is_complete());
+        let told = placing.told().to_vec();
+        assert!(all.into_iter().all(|part| placing.add(part)) && placing.told() == told, "once more says nothing new");
         let whole = run.judged.contacts(placing.teller().expect("one judges"), after(run.plan.scenario()));
         assert_eq!(whole.len(), placing.told().len());
-        for (told, whole) in placing.told().iter().zip(&whole) {
-            let known: Vec<_> = told.estimates.iter().flatten().cloned().collect();
-            assert_eq!(known, whole.estimates);
-        }
-        assert!(!placing.add(Part::Estimate { contact: 9, estimate: None }));
+        assert_eq!(placing.found(), whole);
+        assert!(!placing.add(Part::Estimate { contact: 9, number: 0, estimate: None }));
+        assert!(!placing.add(Part::Estimate { contact: 0, number: 9, estimate: None }));
         assert!(!placing.add(Part::Contacts(Vec::new())));
     }
 }
