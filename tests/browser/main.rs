@@ -40,6 +40,7 @@ mod memory;
 mod paper;
 mod phone;
 mod saving;
+mod segments;
 mod start;
 mod storm;
 mod theory;
