@@ -18,9 +18,11 @@ fn contacts_are_placed_by_the_worker_as_the_command_places_them() {
     let address = page.eval("location.origin + location.pathname");
     page.browse("about:blank");
     page.go(&format!("{}?test#view=chain&chain=two-contacts&t=8", address.as_str().expect("an address")));
+    page.wait("the page to run", |page| (page.shown() == "running").then_some(()));
     page.wait("both contacts and all that is known of them", |page| {
         let says = |what: &str, all: &[String]| all.iter().any(|said| said.contains(what));
-        let all: Vec<String> = page.widgets().into_iter().map(|widget| widget.label).collect();
+        // What is only read is its own value.
+        let all: Vec<String> = page.widgets().into_iter().map(|widget| widget.label + &widget.value).collect();
         (says("Contact 2: alarm", &all) && !says("Placing contacts", &all)).then_some(())
     });
     assert_eq!(page.eval("asked"), serde_json::json!(["Contacts"]));
