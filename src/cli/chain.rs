@@ -5,7 +5,7 @@ mod log;
 use super::draw::{self, Format};
 use super::output::{Failure, NewFile, finish_csv, json, write_record};
 use centrode_core::detect::Method;
-use centrode_core::detect::chain::ChainMethod;
+use centrode_core::detect::chain::{ChainMethod, ChainSettings};
 use centrode_core::scenario::{ChainPlan, ChainScenario};
 use centrode_core::study::chain::figure::over_time;
 use centrode_core::study::chain::{ChainReport, ChainRun, ContactTold, EstimateTold, EventTold};
@@ -76,14 +76,7 @@ fn print(out: &mut impl Write, report: &ChainReport, as_json: bool) -> Result<()
 
 /// A detector that judges.
 fn detector(scenario: &ChainScenario, name: &str) -> Result<ChainMethod, Failure> {
-    let known: Vec<ChainMethod> = scenario
-        .common()
-        .detection
-        .detectors
-        .iter()
-        .map(ChainMethod::Of)
-        .chain(scenario.smd.map(|_| ChainMethod::Smd))
-        .collect();
+    let known: Vec<ChainMethod> = ChainSettings::of(scenario).detectors().collect();
     known.iter().copied().find(|method| method.key() == name).ok_or_else(|| {
         let keys: Vec<&str> = known.iter().map(|method| method.key()).collect();
         Failure::Input(format!("--detector: {name:?} does not judge here; those that do: {}", keys.join(", ")))
@@ -123,8 +116,7 @@ fn write_csv(file: NewFile, run: &ChainRun) -> Result<(), Failure> {
             let reading = run.recording.readings[k].as_ref().map(|readings| readings[at]);
             row.extend((0..3).map(|axis| reading.map_or(String::new(), |reading| word(reading.position[axis]))));
             row.extend((0..3).map(|axis| reading.map_or(String::new(), |reading| word(reading.angles[axis]))));
-            let judgement = run.judged.segments.get(k).map(|judged| judged.evidence[at].judgement);
-            let values = judgement.map(|of| [of.deviation, of.consistent, of.turned, of.cusum]);
+            let values = run.judged.judgement(k, at).map(|of| [of.deviation, of.consistent, of.turned, of.cusum]);
             row.extend(values.unwrap_or([f64::NAN; 4]).map(word));
         }
         row.extend((0..contacts).map(|k| truth.map_or(String::new(), |truth| word(truth.forces[k]))));

@@ -223,6 +223,27 @@ fn csv_has_a_row_for_every_sample_and_columns_for_every_segment() {
 }
 
 #[test]
+fn with_a_tracker_on_the_tip_alone_files_hold_what_judges() {
+    let [csv, svg] = ["chain-tip.csv", "chain-tip.svg"].map(scratch);
+    let [table, drawing] = [&csv, &svg].map(|path| path.to_str().expect("text"));
+    let done = centrode(&["run", "--preset", "tip-only", "--csv", table, "--figure", drawing]);
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let [text, drawn] = [&csv, &svg].map(|path| fs::read_to_string(path).expect("a file"));
+    [csv, svg].into_iter().for_each(|path| fs::remove_file(path).expect("it was there"));
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let most = |name: &str| {
+        let at = rows[0].iter().position(|column| *column == name).expect(name);
+        rows[1..].iter().filter_map(|row| row[at].parse().ok()).fold(f64::NEG_INFINITY, f64::max)
+    };
+    assert!(most("cusum_3 [1]") > 30.0 && most("screw_angle_3 [rad]") > 0.0);
+    assert_eq!([most("cusum_1 [1]"), most("cusum_2 [1]")], [f64::NEG_INFINITY; 2]);
+    assert!(drawn.contains("Segment 3: ") && !drawn.contains("Segment 2: "), "one disk is judged");
+    let refused = centrode(&["run", "--preset", "tip-only", "--detector", "fcd"]);
+    let why = String::from_utf8_lossy(&refused.stderr).into_owned();
+    assert!(refused.status.code() == Some(2) && why.contains("those that do: cusum, smd"), "{why}");
+}
+
+#[test]
 fn what_cannot_be_is_refused_in_one_line_with_the_key() {
     let segment = "[[segment]]\ntorsion = 5\n[segment.motion]\ntheta_end = 1.0\n";
     for (text, parts) in [

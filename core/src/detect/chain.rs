@@ -67,6 +67,13 @@ pub struct ChainSettings {
 }
 
 impl ChainSettings {
+    /// The detectors that judge. With a tracker on the last end disk alone those do not that rest on the motion of a segment by itself.
+    pub fn detectors(&self) -> impl Iterator<Item = ChainMethod> + '_ {
+        let can = |method: &&Method| self.tracked == Tracked::All || **method == Method::Cusum;
+        let methods = self.methods.iter().filter(can).map(|method| ChainMethod::Of(*method));
+        methods.chain(self.smd.map(|_| ChainMethod::Smd))
+    }
+
     /// Those of an experiment. Thresholds of likelihood ratios are raised by the logarithm of the number of segments, each of which can raise a false
     /// alarm.
     #[must_use]
@@ -121,6 +128,8 @@ pub struct ChainJudged {
     pub segments: Vec<Judged>,
     /// With a tracker on the last end disk alone: what the calibration filter of the whole chain made of its readings.
     whole: Option<Watch>,
+    /// Likewise: what is made of every instant.
+    tip: Vec<Judgement>,
     /// The last instant of the recording, s.
     end: f64,
     /// Events of all detectors on all end disks, in the order in which they were raised.
@@ -147,13 +156,25 @@ pub fn judge_chain(recording: &ChainRecording, settings: &ChainSettings) -> Chai
     }
     let watches = settings.tracked == Tracked::Tip && settings.methods.contains(&Method::Cusum);
     let whole = watches.then(|| Watch::new(recording, settings)).flatten();
+    let mut tip = Vec::new();
     if settings.tracked == Tracked::Tip {
-        events = tip::events(recording, settings);
-        events.extend(whole.iter().flat_map(|watch| tip::alarms(watch, recording, settings)));
+        tip = tip::judgements(recording, settings, whole.as_ref());
+        events = tip::events(&tip, recording, settings);
     }
     events.sort_by(|a, b| a.raised.total_cmp(&b.raised));
     let end = recording.times.last().copied().unwrap_or(0.0);
-    ChainJudged { settings: settings.clone(), relative, segments, whole, end, events }
+    ChainJudged { settings: settings.clone(), relative, segments, whole, tip, end, events }
+}
+
+impl ChainJudged {
+    /// What is made of a segment's end disk at a sample; none of one that carries no tracker.
+    #[must_use]
+    pub fn judgement(&self, segment: usize, sample: usize) -> Option<Judgement> {
+        if self.settings.tracked == Tracked::Tip {
+            return self.tip.get(sample).copied().filter(|_| segment + 1 == self.settings.segments.len());
+        }
+        Some(self.segments.get(segment)?.evidence.get(sample)?.judgement)
+    }
 }
 
 /// The events of detectors that judge a segment by itself.

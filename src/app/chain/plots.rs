@@ -77,14 +77,15 @@ pub fn plots(
     let (strip, _) = ui.allocate_exact_size(vec2(ui.available_width(), high), egui::Sense::hover());
     choices(ui, strip, (memo, set), &all, out);
     ui.add_space(6.0);
-    let count = memo.run().recording.segments();
-    let segment = set.segment.min(count - 1);
+    let segment = set.segment.min(memo.run().recording.segments() - 1);
     let ones: Vec<One> = if set.all {
         let shown = chosen(set, &all);
         let each = shown.is_of_each();
-        (0..if each { count } else { 1 }).map(|segment| One { segment, shown, by_segment: each }).collect()
+        shown.segments(memo.run()).map(|segment| One { segment, shown, by_segment: each }).collect()
     } else {
-        all.iter().map(|shown| One { segment, shown: *shown, by_segment: false }).collect()
+        // Of the whole robot, whichever is chosen.
+        let of = |shown: &Shown| if shown.is_of_each() { shown.segments(memo.run()).contains(&segment) } else { true };
+        all.iter().filter(|shown| of(shown)).map(|shown| One { segment, shown: *shown, by_segment: false }).collect()
     };
     let space = ui.available_size();
     let wide = space.x >= SIDE_BY_SIDE * ones.len() as f32;

@@ -13,10 +13,25 @@ use crate::model::{Configuration, Pose, Vec3};
 use crate::record::chain::ChainRecording;
 use crate::sensors::tracker::{Reading, refresh, unwrapped};
 
-/// The events of the screw motion deviation of the last end disk. What other detectors see rests on the motion of a segment by itself, which
-/// nobody measures.
-pub(super) fn events(recording: &ChainRecording, settings: &ChainSettings) -> Vec<ChainEvent> {
-    let (Some(smd), Some(own)) = (&settings.smd, settings.segments.last()) else { return Vec::new() };
+/// What is made of every instant of a recording: the screw motion deviation of the last end disk, and the cumulative sum of the whole chain's
+/// calibration filter. What other detectors see rests on the motion of a segment by itself, which nobody measures.
+pub(super) fn judgements(
+    recording: &ChainRecording,
+    settings: &ChainSettings,
+    watch: Option<&Watch>,
+) -> Vec<Judgement> {
+    let sum = |time: f64| watch.and_then(|watch| Some(watch.sums[watch.at(time)?])).unwrap_or(f64::NAN);
+    let mut judgements = screws(recording, settings);
+    judgements.resize(recording.times.len(), Judgement::UNDEFINED);
+    for (judgement, &time) in judgements.iter_mut().zip(&recording.times) {
+        judgement.cusum = sum(time);
+    }
+    judgements
+}
+
+/// The screw motion deviation; empty where it does not judge.
+fn screws(recording: &ChainRecording, settings: &ChainSettings) -> Vec<Judgement> {
+    let (Some(_), Some(own)) = (&settings.smd, settings.segments.last()) else { return Vec::new() };
     let Some(readings) = recording.readings.last().and_then(Option::as_ref) else { return Vec::new() };
     let mut filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
     let mut model = Model { recording, settings, held: None };
@@ -25,25 +40,41 @@ pub(super) fn events(recording: &ChainRecording, settings: &ChainSettings) -> Ve
         if reading.position.x.is_nan() {
             filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
             whole = 0;
-            return (time, Judgement::UNDEFINED);
+            return Judgement::UNDEFINED;
         }
         whole = own.filter.length.min(whole + 1);
         let expected = model.reading(k, time);
         let [sensor, ours] = [filters[0].push(reading), filters[1].push(&expected)];
-        (time, if whole == own.filter.length { judgement(&sensor, &ours) } else { Judgement::UNDEFINED })
+        if whole == own.filter.length { judgement(&sensor, &ours) } else { Judgement::UNDEFINED }
     });
-    let judgements: Vec<(f64, Judgement)> = judgements.collect();
-    screw_events(recording.segments() - 1, judgements.into_iter(), own, smd)
+    judgements.collect()
+}
+
+/// The events of both.
+pub(super) fn events(
+    judgements: &[Judgement],
+    recording: &ChainRecording,
+    settings: &ChainSettings,
+) -> Vec<ChainEvent> {
+    let Some(own) = settings.segments.last() else { return Vec::new() };
+    let each = || recording.times.iter().copied().zip(judgements.iter().copied());
+    let screws = settings.smd.map(|smd| screw_events(recording.segments() - 1, each(), own, &smd));
+    let mut events = screws.unwrap_or_default();
+    events.extend(alarms(each(), recording, settings));
+    events
 }
 
 /// The events of the cumulative sum over the innovations of the whole chain's calibration filter.
-pub(super) fn alarms(watch: &Watch, recording: &ChainRecording, settings: &ChainSettings) -> Vec<ChainEvent> {
+fn alarms(
+    judgements: impl Iterator<Item = (f64, Judgement)>,
+    recording: &ChainRecording,
+    settings: &ChainSettings,
+) -> Vec<ChainEvent> {
     let mut events: Vec<ChainEvent> = Vec::new();
     let Some(thresholds) = settings.segments.last().map(|own| &own.thresholds) else { return events };
     let Some(threshold) = thresholds.of(Method::Cusum).value() else { return events };
     let mut latch = Latch::default();
-    for &time in &recording.times {
-        let Some(value) = watch.at(time).map(|reading| watch.sums[reading]) else { continue };
+    for (time, Judgement { cusum: value, .. }) in judgements.filter(|(_, judgement)| !judgement.cusum.is_nan()) {
         let low = value <= thresholds.release * threshold;
         match latch.look(time, value > threshold, low, thresholds.hold).1 {
             Some(Turn::Raised) => events.push(ChainEvent {

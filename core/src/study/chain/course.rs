@@ -5,12 +5,13 @@ use super::ChainRun;
 use crate::chart::ticks::Steps;
 use crate::chart::{Axis, Band, Panel, Role, Series, Span, Style, Vertical};
 use crate::detect::chain::{ChainEstimate, ChainMethod};
-use crate::detect::evidence::Judgement;
 use crate::detect::{Method, Standing};
 use crate::model::chain::path::What;
+use crate::scenario::chain::Tracked;
 use crate::study::course::{Measure, angles, measure, range, unarmed};
 use crate::study::figure::words::MILLI;
 use std::f64::consts::PI;
+use std::ops::Range;
 
 /// What a panel shows of a segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,16 +36,11 @@ impl Shown {
     #[must_use]
     pub fn all(run: &ChainRun) -> Vec<Self> {
         let settings = &run.judged.settings;
-        let mut all: Vec<Self> = Vec::new();
-        if !run.judged.segments.is_empty() {
-            all.extend(settings.methods.iter().map(|method| Self::Judged(ChainMethod::Of(*method))));
-            if settings.smd.is_some() {
-                all.extend([Self::Judged(ChainMethod::Smd), Self::Turned]);
-            }
-            // What tells of contacts first.
-            let teller = run.judged.teller().map(Self::Judged);
-            all.sort_by_key(|shown| Some(*shown) != teller);
-        }
+        let mut all: Vec<Self> = settings.detectors().map(Self::Judged).collect();
+        all.extend(settings.smd.map(|_| Self::Turned));
+        // What tells of contacts first.
+        let teller = run.judged.teller().map(Self::Judged);
+        all.sort_by_key(|shown| Some(*shown) != teller);
         all.push(Self::Bend);
         let turns = |told: &Vec<crate::record::chain::Told>| told.iter().any(|told| told.rates[1] != 0.0);
         if run.recording.told.iter().any(turns) {
@@ -60,6 +56,17 @@ impl Shown {
     #[must_use]
     pub fn is_of_each(self) -> bool {
         self != Self::Margin
+    }
+
+    /// The segments of which it is shown: the last alone of what is judged where that alone carries a tracker.
+    #[must_use]
+    pub fn segments(self, run: &ChainRun) -> Range<usize> {
+        let count = run.recording.segments();
+        match self.detector() {
+            Some(_) if run.judged.settings.tracked == Tracked::Tip => count - 1..count,
+            _ if self.is_of_each() => 0..count,
+            _ => 0..1,
+        }
     }
 
     /// How its values are called and shown.
@@ -102,6 +109,9 @@ impl Shown {
     #[must_use]
     pub fn threshold(self, run: &ChainRun, segment: usize) -> Option<f64> {
         let settings = &run.judged.settings;
+        if !self.segments(run).contains(&segment) {
+            return None;
+        }
         match self {
             Self::Judged(ChainMethod::Of(method)) => settings.segments.get(segment)?.thresholds.of(method).value(),
             Self::Judged(ChainMethod::Smd) => settings.smd.map(|smd| smd.distance),
@@ -117,11 +127,11 @@ impl Shown {
         match self {
             Self::Bend => told.map_or(f64::NAN, |told| told.theta_l()),
             Self::Direction => told.map_or(f64::NAN, |told| told.delta()),
-            Self::Judged(method) => judgement(run, segment, sample).map_or(f64::NAN, |judgement| match method {
+            Self::Judged(method) => run.judged.judgement(segment, sample).map_or(f64::NAN, |judgement| match method {
                 ChainMethod::Of(method) => method.value(&judgement),
                 ChainMethod::Smd => Method::FcdConsistent.value(&judgement),
             }),
-            Self::Turned => judgement(run, segment, sample).map_or(f64::NAN, |judgement| judgement.turned),
+            Self::Turned => run.judged.judgement(segment, sample).map_or(f64::NAN, |judgement| judgement.turned),
             Self::Margin => {
                 let truth = run.recording.truth.as_ref().and_then(|truth| truth.get(sample));
                 truth.map_or(f64::NAN, |truth| truth.margin)
@@ -146,7 +156,7 @@ impl Shown {
             Self::Bend | Self::Direction | Self::Margin => return true,
         };
         let (Some(settings), Some(judgement)) =
-            (run.judged.settings.segments.get(segment), judgement(run, segment, sample))
+            (run.judged.settings.segments.get(segment), run.judged.judgement(segment, sample))
         else {
             return false;
         };
@@ -236,10 +246,6 @@ impl Shown {
             Series::new("raised", Role::Detection, Style::Diamonds, raised),
         ]
     }
-}
-
-fn judgement(run: &ChainRun, segment: usize, sample: usize) -> Option<Judgement> {
-    Some(run.judged.segments.get(segment)?.evidence.get(sample)?.judgement)
 }
 
 /// Time of the last sample, s.

@@ -16,7 +16,7 @@ pub fn over_time(run: &ChainRun) -> Chart {
     let mut panels = Vec::new();
     if let Some(shown) = Shown::all(run).first() {
         let ends = shown.range(run);
-        panels.extend((0..run.recording.segments()).map(|segment| {
+        panels.extend(shown.segments(run).map(|segment| {
             let panel = shown.panel(run, segment, ends);
             Panel { title: format!("Segment {}: {}", segment + 1, panel.title), ..panel }
         }));
