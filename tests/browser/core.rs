@@ -128,24 +128,25 @@ fn the_3d_view_moves_on_webgpu() {
     the_view_moves_with_playback(&mut Page::open(Renderer::WebGpu, "?test", Options::default()));
 }
 
-/// A measurement, printed with `--nocapture`; that the page computes at all is what it asserts.
+/// A measurement, printed with `--nocapture`; that both compute the same is what it asserts.
 #[test]
 fn a_run_in_wasm_takes_this_long() {
     const RUNS: u32 = 40;
     let toml = PRESETS[0].toml;
     let scenario = PRESETS[0].scenario().expect("valid");
+    let ours = || simulate(std::hint::black_box(&scenario)).expect("valid").fingerprint();
     let start = std::time::Instant::now();
-    for _ in 0..RUNS {
-        assert!(simulate(std::hint::black_box(&scenario)).expect("valid").fingerprint() != 0);
-    }
+    let natively = (0..RUNS).map(|_| ours()).last().map(|hash| format!("{hash:016x}"));
     let native = start.elapsed().as_secs_f64() * 1e3 / f64::from(RUNS);
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     let script = format!(
         "(() => {{ const toml = {}; centrode.fingerprint(toml); const start = performance.now(); \
-         for (let i = 0; i < {RUNS}; i++) centrode.fingerprint(toml); return (performance.now() - start) / {RUNS}; }})()",
+         let hash; for (let i = 0; i < {RUNS}; i++) hash = centrode.fingerprint(toml); \
+         return [(performance.now() - start) / {RUNS}, hash]; }})()",
         serde_json::json!(toml)
     );
-    let wasm = page.eval(&script).as_f64().expect("a time");
-    assert!(wasm > 0.0);
+    let told = page.eval(&script);
+    let wasm = told[0].as_f64().expect("a time");
+    assert_eq!(told[1].as_str(), natively.as_deref());
     println!("a run with its fingerprint: {wasm:.2} ms in wasm, {native:.2} ms in this build natively");
 }

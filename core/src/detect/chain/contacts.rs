@@ -188,7 +188,8 @@ impl ChainJudged {
 
     /// A contact as it is known at a later time (s); none where it is likelier that nothing touches.
     fn settled(&self, detector: ChainMethod, contact: &ChainContactFound, time: f64) -> Option<KnownContact> {
-        let estimate = self.marginal(detector, contact, time - contact.alarm, time)?;
+        let deviating = self.deviating(detector, contact, time);
+        let estimate = self.marginal(contact, &deviating, [time - contact.alarm, time])?;
         if estimate.nothing > 0.5 {
             return None;
         }
@@ -203,18 +204,19 @@ impl ChainJudged {
         if self.end < time {
             return None;
         }
-        self.marginal(detector, contact, after, time).or_else(|| self.by_centrode(detector, contact, after, time))
+        let deviating = self.deviating(detector, contact, time);
+        let places = matches!(detector, ChainMethod::Of(method) if method.places());
+        let by_centrode = || self.by_centrode(contact, *deviating.last().filter(|_| places)?, [after, time]);
+        self.marginal(contact, &deviating, [after, time]).or_else(by_centrode)
     }
 
     /// Every segment is asked for the probability of all readings with a contact on it, over that without.
     fn marginal(
         &self,
-        detector: ChainMethod,
         contact: &ChainContactFound,
-        after: f64,
-        time: f64,
+        deviating: &[usize],
+        [after, time]: [f64; 2],
     ) -> Option<ChainEstimate> {
-        let deviating = self.deviating(detector, contact, time);
         let heard = self.heard(time)?;
         let latest = heard.at(contact.raised_by, contact.alarm)?;
         // As early as any segment that deviates by now leaves open.
@@ -317,18 +319,13 @@ impl ChainJudged {
         Along { mean, low: quantile(0.025), high: quantile(0.975) }
     }
 
-    /// Eq. 24 on the most distal segment that deviates by then.
+    /// Eq. 24 on a segment: the most distal that deviates by then.
     fn by_centrode(
         &self,
-        detector: ChainMethod,
         contact: &ChainContactFound,
-        after: f64,
-        time: f64,
+        segment: usize,
+        [after, time]: [f64; 2],
     ) -> Option<ChainEstimate> {
-        if !matches!(detector, ChainMethod::Of(method) if method.places()) {
-            return None;
-        }
-        let segment = *self.deviating(detector, contact, time).last()?;
         let judged = self.segments.get(segment)?;
         let place = judged.estimate(&self.relative[segment], contact.alarm, after, Estimator::Eq24)?.location;
         let probabilities = (0..self.segments.len()).map(|k| f64::from(u8::from(k == segment))).collect();
