@@ -273,6 +273,23 @@ mod tests {
     }
 
     #[test]
+    fn what_is_set_takes_the_place_of_what_says_the_same_in_another_way() {
+        let draft = draft("three-segments");
+        let contact = |set: &[&str]| {
+            let scenario = draft.overridden(set.iter().copied()).and_then(|draft| draft.scenario());
+            scenario.map(|scenario| scenario.contacts[0].clone()).map_err(|error| error.to_string())
+        };
+        assert_eq!(contact(&["contact[1].at=0.012"]).map(|contact| contact.at), Ok(0.012));
+        assert_eq!(contact(&["contact[1].at=0.012", "contact[1].disk=3"]), contact(&["contact[1].disk=3"]));
+        assert_eq!(contact(&["contact[1].bend=0.5", "contact[1].time=5.8"]), contact(&[]));
+        let plane = ["contact[1].normal=[0.0, 0.0, 1.0]", "contact[1].offset=0.05"];
+        assert_eq!(contact(&plane), contact(&[plane[1], plane[0]]));
+        let [from, tilted] = ["contact[1].time=5.8", "contact[1].tilt=0.2"];
+        assert_eq!(contact(&[from, tilted, plane[0], plane[1]]), contact(&plane));
+        assert!(contact(&plane[1..]).is_err_and(|why| why.contains("normal")), "an offset of nothing");
+    }
+
+    #[test]
     fn what_cannot_be_read_changes_nothing_and_says_why() {
         let draft = draft("two-contacts");
         let refused = draft.with([Change::Set("segment[2].length".into(), Value::Float(-1.0))]).expect_err("negative");

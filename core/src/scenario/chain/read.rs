@@ -19,6 +19,14 @@ const MOTION: [&str; 5] = ["theta_start", "theta_end", "delta", "start", "finish
 const OWN: [&str; 3] = ["joint_offset", "torsion", "motion"];
 const TURN: [&str; 3] = ["delta_end", "delta_start", "delta_finish"];
 const CONTACT: [&str; 9] = ["segment", "disk", "at", "kind", "time", "bend", "tilt", "normal", "offset"];
+/// Of a contact: keys that are set, and those that say the same in another way, in whose place they are.
+const INSTEAD_OF: [(&[&str], &[&str]); 5] = [
+    (&["disk"], &["at"]),
+    (&["at"], &["disk"]),
+    (&["time"], &["bend", "normal", "offset"]),
+    (&["bend"], &["time", "normal", "offset"]),
+    (&["normal", "offset"], &["time", "bend", "tilt"]),
+];
 /// What a scenario of one segment has in their place.
 const ALONE: [&str; 4] = ["robot", "motion", "load", "load_cells"];
 
@@ -88,7 +96,8 @@ impl ChainScenario {
     }
 }
 
-/// Puts one value in the place of another: `key=value`, the value TOML or a bare word.
+/// Puts one value in the place of another: `key=value`, the value TOML or a bare word. What a contact cannot have beside it goes: a disk
+/// where an arc length is set.
 pub(super) fn replace(table: &mut Table, text: &str) -> Result<(), ScenarioError> {
     let none = || ScenarioError::Override { text: text.into() };
     let (path, value) = text.split_once('=').ok_or_else(none)?;
@@ -105,6 +114,10 @@ pub(super) fn replace(table: &mut Table, text: &str) -> Result<(), ScenarioError
         at = inner(at, part).ok_or_else(none)?;
     }
     at.insert((*last).into(), value);
+    if matches!(groups, [contact] if contact.starts_with("contact[")) {
+        let replaced = INSTEAD_OF.iter().filter(|(set, _)| set.contains(last)).flat_map(|(_, others)| *others);
+        replaced.for_each(|other| drop(at.remove(*other)));
+    }
     Ok(())
 }
 
