@@ -4,6 +4,7 @@ import { silence } from "./silence.js";
 
 // So much of a file says what it is.
 const HEAD_BYTES = 65536;
+const MOST_LOOKS = 6;
 
 /// `core` is the program, to which files and answers go; `module` is what it was made from.
 export function logs(core, module) {
@@ -36,7 +37,7 @@ export function logs(core, module) {
       worker = made;
       made.onerror = (event) => made === worker && fail(event.message ?? "the worker could not be loaded");
       made.onmessageerror = () => made === worker && fail("the worker's answer could not be read");
-      silent = silence(() => fail("the worker does not answer"));
+      silent = silence(MOST_LOOKS, () => fail("the worker does not answer"));
       silent.begin();
       made.onmessage = ({ data }) => {
         if (made !== worker) return;

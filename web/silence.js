@@ -1,11 +1,10 @@
 // Tells when somebody who has something to do is silent for too long.
 
 const LOOK_MS = 5000;
-// Looks, not time: a machine that slept has looked once.
-const MOST_LOOKS = 6;
 
-/// Calls `tell` once after so many looks without a word; `{ begin, heard, end }`.
-export function silence(tell) {
+/// Calls `tell` once after so many looks without a word, 5 s from one to the next: looks, not time, for a machine that slept has looked
+/// once. `{ begin, heard, end }`.
+export function silence(most, tell) {
   let looks = 0;
   let timer = null;
 
@@ -16,7 +15,7 @@ export function silence(tell) {
 
   function look() {
     looks += 1;
-    if (looks < MOST_LOOKS) return;
+    if (looks < most) return;
     end();
     tell();
   }

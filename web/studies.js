@@ -3,6 +3,9 @@
 import { worker as workerOf } from "./parts.js";
 import { silence } from "./silence.js";
 
+// On a phone a contact on a dozen segments is placed in a minute, in one piece.
+const MOST_LOOKS = 24;
+
 /// `{ ask, replace }`: `ask` takes a request (JSON, or nothing for none), `replace` says whether another worker takes the place of this
 /// one. `core` is the program, to which answers go; `module` is what it was made from, compiled once for both.
 export function studies(core, module) {
@@ -12,7 +15,7 @@ export function studies(core, module) {
   // What it is to make, until that is made, and its number.
   let asked = null;
   let number = 0;
-  const silent = silence(() => fail("it does not answer"));
+  const silent = silence(MOST_LOOKS, () => fail("it does not answer"));
 
   function end() {
     silent.end();
