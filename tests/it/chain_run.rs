@@ -94,6 +94,29 @@ fn the_segment_is_right_and_the_place_near_over_several_seeds() {
 }
 
 #[test]
+fn on_five_segments_intervals_hold_the_contact_that_all_trackers_see() {
+    let preset = find_chain("three-segments").expect("a preset").toml;
+    let (three, contact) = preset.split_once("[[contact]]").expect("a contact");
+    let second = three.split("[[segment]]").nth(2).expect("segments");
+    let five = format!(
+        "{three}{}[[contact]]{}",
+        format!("[[segment]]{second}").repeat(2),
+        contact.replace("segment = 3", "segment = 5")
+    );
+    let held = (1..=6).filter(|seed| {
+        let scenario = ChainScenario::from_bytes(five.as_bytes(), &[]).expect("a scenario").with_seed(*seed);
+        let run = ChainRun::new(ChainPlan::new(&scenario).expect("stable"));
+        let found = run.judged.contacts(ChainMethod::Of(Method::Cusum), &[0.5]);
+        let estimate = &found[0].estimates[0];
+        assert_eq!(estimate.segment, 4, "seed {seed}");
+        let truth = 4.0 * 0.03 + scenario.contacts[0].at;
+        (estimate.along.low..=estimate.along.high).contains(&truth)
+    });
+    let held = held.count();
+    assert!(held >= 5, "{held} of 6");
+}
+
+#[test]
 fn a_free_robot_hardly_ever_raises_an_alarm_of_the_calibration_filter() {
     let mut alarms = 0;
     for seed in 1..=10 {

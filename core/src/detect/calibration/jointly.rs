@@ -138,12 +138,13 @@ pub fn estimate<H: Hypotheses>(
     // All are weighed alike: what is likelier beforehand counts as if more had been tried.
     let count = all.len() as f64;
     all.iter_mut().zip(shares).for_each(|(tried, share)| tried.parts /= share * count);
-    // One segment against another is weighed by all that was heard. What trackers learn of the calibration they learn from noise that they share:
-    // of the place, several are believed no more than they are on average.
+    // One segment against another is weighed by all that was heard. What trackers learn of the calibration they learn from noise that they share,
+    // and each learns by itself: with every further one, what they say of the place is believed less. Then intervals hold it.
     let mut estimate = weigh(&all, &weighed)?;
     if seeing > 1 {
+        let believed = (1..seeing).map(|_| SHARED).product();
         for tried in &mut all {
-            tried.rows.iter_mut().for_each(|row| *row = row.told(1.0 / seeing as f64));
+            tried.rows.iter_mut().for_each(|row| *row = row.told(believed));
         }
         estimate = Estimate { ratio: estimate.ratio, evidence: estimate.evidence, ..weigh(&all, &weighed)? };
     }
@@ -165,6 +166,8 @@ pub fn estimate<H: Hypotheses>(
     Some(Placed { estimate, tilt })
 }
 
+/// How much less several trackers are believed with every further one: measured on chains of two to five segments.
+const SHARED: f64 = 0.45;
 /// A segment whose largest log likelihood is this much below that on another counts for nothing.
 const HOPELESS: f64 = 40.0;
 /// How likely a clamp is beforehand, where one is thought possible. Half of the planes stand across the bending plane, half with any tilt.
