@@ -16,6 +16,7 @@ mod tip;
 mod whole;
 
 use super::evidence::Judgement;
+use super::filter::FilteredMotion;
 use super::judge::{Judged, Settings, judge};
 use super::latch::{Latch, Turn};
 use super::statistic::Method;
@@ -122,14 +123,14 @@ pub struct ChainEvent {
 pub struct ChainJudged {
     /// With what it was judged.
     pub settings: ChainSettings,
-    /// What each segment showed in the frame of the end disk below it; with a tracker on the last end disk alone, one entry for that in {B}.
+    /// What each segment showed in the frame of the end disk below it; empty with a tracker on the last end disk alone.
     pub relative: Vec<Recording>,
     /// What is concluded from each of these.
     pub segments: Vec<Judged>,
     /// With a tracker on the last end disk alone: what the calibration filter of the whole chain made of its readings.
     whole: Option<Watch>,
     /// Likewise: what is made of every instant.
-    tip: Vec<Judgement>,
+    tip: Vec<tip::Seen>,
     /// The last instant of the recording, s.
     end: f64,
     /// Events of all detectors on all end disks, in the order in which they were raised.
@@ -158,7 +159,7 @@ pub fn judge_chain(recording: &ChainRecording, settings: &ChainSettings) -> Chai
     let whole = watches.then(|| Watch::new(recording, settings)).flatten();
     let mut tip = Vec::new();
     if settings.tracked == Tracked::Tip {
-        tip = tip::judgements(recording, settings, whole.as_ref());
+        tip = tip::seen(recording, settings, whole.as_ref());
         events = tip::events(&tip, recording, settings);
     }
     events.sort_by(|a, b| a.raised.total_cmp(&b.raised));
@@ -171,9 +172,17 @@ impl ChainJudged {
     #[must_use]
     pub fn judgement(&self, segment: usize, sample: usize) -> Option<Judgement> {
         if self.settings.tracked == Tracked::Tip {
-            return self.tip.get(sample).copied().filter(|_| segment + 1 == self.settings.segments.len());
+            let of_last = self.tip.get(sample).filter(|_| segment + 1 == self.settings.segments.len());
+            return of_last.map(|seen| seen.judgement);
         }
         Some(self.segments.get(segment)?.evidence.get(sample)?.judgement)
+    }
+
+    /// How the last end disk moves in {B} at a sample, by the model and by the tracker, filtered alike: with a tracker on it alone, where the
+    /// screw motion deviation judges. Undefined until the filter is full.
+    #[must_use]
+    pub fn tip_motions(&self, sample: usize) -> Option<[FilteredMotion; 2]> {
+        self.settings.smd.and(self.tip.get(sample)).map(|seen| seen.motions)
     }
 }
 

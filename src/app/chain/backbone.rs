@@ -41,6 +41,9 @@ pub fn backbone(ui: &mut Ui, memo: &Memo, time: f64, state: &mut BackboneState) 
     });
     if let Some(place) = places.first().filter(|_| placed.is_empty()) {
         let words = ui.painter().layout_job(job("no contact is placed yet", 12.0, theme.dim));
-        ui.painter().galley(place.data().center() - 0.5 * words.size(), words, theme.dim);
+        let at = egui::Rect::from_center_size(place.data().center(), words.size());
+        // Not across the lines between segments.
+        ui.painter().rect_filled(at.expand2(vec2(6.0, 2.0)), 0.0, theme.panel);
+        ui.painter().galley(at.min, words, theme.dim);
     }
 }

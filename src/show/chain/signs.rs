@@ -8,6 +8,7 @@ use centrode_core::detect::chain::ChainEstimate;
 use centrode_core::detect::evidence::Evidence;
 use centrode_core::detect::judge::Judged;
 use centrode_core::detect::{Method, Standing};
+use centrode_core::model::centrode::centrode;
 use centrode_core::model::chain::path::What;
 use centrode_core::model::{Arc, Rate, Vec3 as Vector};
 use centrode_core::study::chain::ChainRun;
@@ -25,6 +26,13 @@ impl Instant<'_> {
     fn pen(&self, segment: usize) -> Pen<'_> {
         let sizes = &self.sizes[segment];
         Pen { palette: self.palette, lift: 1.5 * sizes.disk, length: sizes.length }
+    }
+
+    /// ω of a segment's model in the frame of the disk below it, up to its size; at rest that of bending.
+    fn turning(&self, segment: usize, rate: Rate) -> Vector {
+        let rate = if rate == Rate::default() { Rate::BENDING } else { rate };
+        let length = f64::from(self.sizes[segment].length);
+        Arc { length, configuration: self.told[segment] }.jacobian(length).twist(rate).angular
     }
 
     /// Across the backbone of a segment at an arc length (m), from where it bends to, so many radii of a disk.
@@ -58,78 +66,117 @@ pub fn names(scene: &mut Scene, instant: &Instant<'_>, chosen: usize) {
     }
 }
 
-/// The screw axes of every end disk in the frame of the one below it, as the model and the tracker have them.
+/// The screw axes of every end disk in the frame of the one below it, as the model and the tracker have them; with a tracker on the last
+/// alone, those of that disk in {B}.
 pub fn axes(scene: &mut Scene, run: &ChainRun, instant: &Instant<'_>, chosen: usize) {
     let place = instant.place;
     let Some(&time) = run.recording.times.get(place) else { return };
     for (segment, judged) in run.judged.segments.iter().enumerate() {
         let Some(evidence) = judged.evidence.get(place) else { continue };
         let [theta_l, delta] = run.recording.told[segment][place].rates;
-        let is_chosen = segment == chosen;
-        let screws = Screws { instant, segment, is_chosen, judged, evidence };
-        screws.draw(scene, time, Rate { theta_l, delta });
+        let model = instant.turning(segment, Rate { theta_l, delta });
+        Screws::of(instant, segment, segment == chosen).draw(scene, model, judged, evidence, time);
     }
-}
-
-/// The screw axes of one end disk.
-struct Screws<'a> {
-    instant: &'a Instant<'a>,
-    segment: usize,
-    is_chosen: bool,
-    judged: &'a Judged,
-    evidence: &'a Evidence,
-}
-
-impl Screws<'_> {
-    fn base(&self) -> Pose {
-        self.instant.bent.pose(self.segment, 0.0)
-    }
-
-    fn point(&self, centrode: &Vector) -> Option<Vec3> {
-        let length = f64::from(self.instant.sizes[self.segment].length);
-        (centrode.norm() < FAR[0] * length).then(|| self.base().point(scene_vector(centrode)))
-    }
-
-    fn along(&self, angular: &Vector) -> Vec3 {
-        let half = AXIS[usize::from(!self.is_chosen)] * self.instant.sizes[self.segment].length;
-        self.base().rotation * scene_vector(angular).normalize_or_zero() * half
-    }
-
-    fn draw(&self, scene: &mut Scene, time: f64, rate: Rate) {
-        let (pen, palette) = (self.instant.pen(self.segment), self.instant.palette);
-        let size = if self.is_chosen { 1.0 } else { SMALL };
-        let judgement = &self.evidence.judgement;
-        let Some(model) = self.point(&judgement.model_centrode) else { return };
-        pen.axis(scene, model, self.along(&self.turning(rate)), palette.model);
-        let thresholds = &self.judged.settings.thresholds;
-        let standing = Method::Fcd.statistic(judgement, time, thresholds).standing;
-        let length = f64::from(self.instant.sizes[self.segment].length);
-        let seen = standing != Standing::Silent && judgement.deviation <= FAR[1] * length;
-        let sensor = self.point(&judgement.sensor_centrode).filter(|_| seen);
-        if let Some(sensor) = sensor {
-            let armed = standing == Standing::Counts;
-            let strength = if armed { 1.0 } else { 0.45 };
-            let along = self.along(&self.evidence.motion.twist.angular);
-            pen.axis(scene, sensor, along, palette.sensor.alpha(strength));
-            if armed {
-                let over = thresholds.xi2.value().is_some_and(|xi2| judgement.deviation > xi2);
-                let color = if over { palette.detection } else { palette.ink };
-                // Of the others their axes are enough.
-                if self.is_chosen {
-                    pen.deviation(scene, [model, sensor], color);
-                    pen.distance(scene, [model, sensor], judgement.deviation, color);
-                }
-            }
-            scene.markers.push(pen.sign(sensor, Shape::Dot, 18.0 * size, palette.sensor).faded(strength));
+    let last = instant.sizes.len() - 1;
+    if let (Some(motions), Some(judgement)) = (run.judged.tip_motions(place), run.judged.judgement(last, place)) {
+        let settings = &run.judged.settings;
+        let standing = Method::FcdConsistent.statistic(&judgement, time, &settings.segments[last].thresholds).standing;
+        let [model, sensor] = motions.map(|motion| {
+            let point = centrode(&motion.position, &motion.twist)?;
+            Some(Axis { point, angular: motion.twist.angular })
+        });
+        let over = settings.smd.is_some_and(|smd| judgement.consistent > smd.distance || judgement.turned > smd.angle);
+        let seen = Seen { standing, deviation: judgement.consistent, over };
+        if let (Some(model), Some(sensor)) = (model, sensor) {
+            Screws::of_whole(instant).axes(scene, &model, &sensor, seen);
         }
-        scene.markers.push(pen.sign(model, Shape::Triangle, 15.0 * size, palette.model));
+    }
+}
+
+/// An instantaneous screw axis: its point nearest to the base that it is seen from (m), and ω.
+struct Axis {
+    point: Vector,
+    angular: Vector,
+}
+
+/// How the axes of model and tracker stand to each other.
+#[derive(Clone, Copy)]
+struct Seen {
+    standing: Standing,
+    /// m.
+    deviation: f64,
+    over: bool,
+}
+
+/// Where the screw axes of one end disk are drawn, and how large.
+struct Screws<'a> {
+    pen: Pen<'a>,
+    base: Pose,
+    /// m.
+    length: f64,
+    half: f32,
+    size: f32,
+    told: bool,
+}
+
+impl<'a> Screws<'a> {
+    fn of(instant: &'a Instant<'_>, segment: usize, is_chosen: bool) -> Self {
+        let length = instant.sizes[segment].length;
+        Self {
+            pen: instant.pen(segment),
+            base: instant.bent.pose(segment, 0.0),
+            length: f64::from(length),
+            half: AXIS[usize::from(!is_chosen)] * length,
+            size: if is_chosen { 1.0 } else { SMALL },
+            // Of the others their axes are enough.
+            told: is_chosen,
+        }
     }
 
-    /// ω of the model in the frame of the disk below, up to its size; at rest that of bending.
-    fn turning(&self, rate: Rate) -> Vector {
-        let rate = if rate == Rate::default() { Rate::BENDING } else { rate };
-        let length = f64::from(self.instant.sizes[self.segment].length);
-        Arc { length, configuration: self.instant.told[self.segment] }.jacobian(length).twist(rate).angular
+    /// Of the last end disk in {B}.
+    fn of_whole(instant: &'a Instant<'_>) -> Self {
+        let length = instant.sizes.iter().map(|sizes| f64::from(sizes.length)).sum();
+        Self { base: instant.bent.pose(0, 0.0), length, ..Self::of(instant, instant.sizes.len() - 1, true) }
+    }
+
+    fn point(&self, axis: &Axis) -> Option<Vec3> {
+        (axis.point.norm() < FAR[0] * self.length).then(|| self.base.point(scene_vector(&axis.point)))
+    }
+
+    fn along(&self, axis: &Axis) -> Vec3 {
+        self.base.rotation * scene_vector(&axis.angular).normalize_or_zero() * self.half
+    }
+
+    fn draw(&self, scene: &mut Scene, turning: Vector, judged: &Judged, evidence: &Evidence, time: f64) {
+        let judgement = &evidence.judgement;
+        let thresholds = &judged.settings.thresholds;
+        let seen = Seen {
+            standing: Method::Fcd.statistic(judgement, time, thresholds).standing,
+            deviation: judgement.deviation,
+            over: thresholds.xi2.value().is_some_and(|xi2| judgement.deviation > xi2),
+        };
+        let model = Axis { point: judgement.model_centrode, angular: turning };
+        let sensor = Axis { point: judgement.sensor_centrode, angular: evidence.motion.twist.angular };
+        self.axes(scene, &model, &sensor, seen);
+    }
+
+    fn axes(&self, scene: &mut Scene, model: &Axis, sensor: &Axis, seen: Seen) {
+        let (pen, palette) = (&self.pen, self.pen.palette);
+        let Some(at) = self.point(model) else { return };
+        pen.axis(scene, at, self.along(model), palette.model);
+        let near = seen.standing != Standing::Silent && seen.deviation <= FAR[1] * self.length;
+        if let Some(read) = self.point(sensor).filter(|_| near) {
+            let armed = seen.standing == Standing::Counts;
+            let strength = if armed { 1.0 } else { 0.45 };
+            pen.axis(scene, read, self.along(sensor), palette.sensor.alpha(strength));
+            if armed && self.told {
+                let color = if seen.over { palette.detection } else { palette.ink };
+                pen.deviation(scene, [at, read], color);
+                pen.distance(scene, [at, read], seen.deviation, color);
+            }
+            scene.markers.push(pen.sign(read, Shape::Dot, 18.0 * self.size, palette.sensor).faded(strength));
+        }
+        scene.markers.push(pen.sign(at, Shape::Triangle, 15.0 * self.size, palette.model));
     }
 }
 

@@ -192,6 +192,22 @@ fn the_chosen_segment_is_ringed_and_alone_has_its_deviation_in_words() {
 }
 
 #[test]
+fn with_a_tracker_on_the_tip_alone_only_its_axes_are_there() {
+    let run = run("tip-only");
+    let [rest, bending, touched] = [1.0, 5.0, 7.5].map(|time| at(run, time, &[]));
+    let shapes = |scene: &Scene| {
+        [Shape::Triangle, Shape::Dot].map(|shape| scene.markers.iter().filter(|marker| marker.shape == shape).count())
+    };
+    assert_eq!([&rest, &bending, &touched].map(shapes), [[0, 0], [1, 1], [1, 1]], "what rests has none");
+    let words = |scene: &Scene| scene.labels.iter().find(|label| label.text.ends_with(" mm")).map(|label| label.color);
+    assert_eq!(
+        [&rest, &touched].map(words),
+        [None, Some(Palette::LIGHT.detection)],
+        "the deviation is over its threshold"
+    );
+}
+
+#[test]
 fn steels_differ_by_more_than_their_colour() {
     let scene = at(run("three-segments"), 0.0, &[]);
     let secondary: Vec<_> = [1, 5, 9].map(|place| &scene.tubes[place]).into();

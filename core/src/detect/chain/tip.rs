@@ -13,51 +13,59 @@ use crate::model::{Configuration, Pose, Vec3};
 use crate::record::chain::ChainRecording;
 use crate::sensors::tracker::{Reading, refresh, unwrapped};
 
+/// What is made of an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Seen {
+    pub judgement: Judgement,
+    /// How the last end disk moves in {B}, by the model and by the tracker, filtered alike.
+    pub motions: [FilteredMotion; 2],
+}
+
+impl Seen {
+    const UNDEFINED: Self =
+        Self { judgement: Judgement::UNDEFINED, motions: [FilteredMotion::UNDEFINED, FilteredMotion::UNDEFINED] };
+}
+
 /// What is made of every instant of a recording: the screw motion deviation of the last end disk, and the cumulative sum of the whole chain's
 /// calibration filter. What other detectors see rests on the motion of a segment by itself, which nobody measures.
-pub(super) fn judgements(
-    recording: &ChainRecording,
-    settings: &ChainSettings,
-    watch: Option<&Watch>,
-) -> Vec<Judgement> {
+pub(super) fn seen(recording: &ChainRecording, settings: &ChainSettings, watch: Option<&Watch>) -> Vec<Seen> {
     let sum = |time: f64| watch.and_then(|watch| Some(watch.sums[watch.at(time)?])).unwrap_or(f64::NAN);
-    let mut judgements = screws(recording, settings);
-    judgements.resize(recording.times.len(), Judgement::UNDEFINED);
-    for (judgement, &time) in judgements.iter_mut().zip(&recording.times) {
-        judgement.cusum = sum(time);
+    let mut seen = screws(recording, settings);
+    seen.resize(recording.times.len(), Seen::UNDEFINED);
+    for (seen, &time) in seen.iter_mut().zip(&recording.times) {
+        seen.judgement.cusum = sum(time);
     }
-    judgements
+    seen
 }
 
 /// The screw motion deviation; empty where it does not judge.
-fn screws(recording: &ChainRecording, settings: &ChainSettings) -> Vec<Judgement> {
+fn screws(recording: &ChainRecording, settings: &ChainSettings) -> Vec<Seen> {
     let (Some(_), Some(own)) = (&settings.smd, settings.segments.last()) else { return Vec::new() };
     let Some(readings) = recording.readings.last().and_then(Option::as_ref) else { return Vec::new() };
     let mut filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
     let mut model = Model { recording, settings, held: None };
     let mut whole = 0;
-    let judgements = recording.times.iter().zip(readings).enumerate().map(|(k, (&time, reading))| {
+    let seen = recording.times.iter().zip(readings).enumerate().map(|(k, (&time, reading))| {
         if reading.position.x.is_nan() {
             filters = [0, 1].map(|_| PoseFilter::new(&own.filter, own.loop_rate));
             whole = 0;
-            return Judgement::UNDEFINED;
+            return Seen::UNDEFINED;
         }
         whole = own.filter.length.min(whole + 1);
         let expected = model.reading(k, time);
         let [sensor, ours] = [filters[0].push(reading), filters[1].push(&expected)];
-        if whole == own.filter.length { judgement(&sensor, &ours) } else { Judgement::UNDEFINED }
+        if whole < own.filter.length {
+            return Seen::UNDEFINED;
+        }
+        Seen { judgement: judgement(&sensor, &ours), motions: [ours, sensor] }
     });
-    judgements.collect()
+    seen.collect()
 }
 
 /// The events of both.
-pub(super) fn events(
-    judgements: &[Judgement],
-    recording: &ChainRecording,
-    settings: &ChainSettings,
-) -> Vec<ChainEvent> {
+pub(super) fn events(seen: &[Seen], recording: &ChainRecording, settings: &ChainSettings) -> Vec<ChainEvent> {
     let Some(own) = settings.segments.last() else { return Vec::new() };
-    let each = || recording.times.iter().copied().zip(judgements.iter().copied());
+    let each = || recording.times.iter().copied().zip(seen.iter().map(|seen| seen.judgement));
     let screws = settings.smd.map(|smd| screw_events(recording.segments() - 1, each(), own, &smd));
     let mut events = screws.unwrap_or_default();
     events.extend(alarms(each(), recording, settings));

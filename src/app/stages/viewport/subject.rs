@@ -146,7 +146,11 @@ fn single(run: &Run, frozen: bool, theme: &Theme, narrow: bool) -> Vec<Entry> {
 
 fn several(run: &ChainRun, theme: &Theme, narrow: bool) -> Vec<Entry> {
     let touches = !run.plan.path().happened().is_empty();
-    let mut entries = vec![entry(Form::Axis, theme.dim, "screw axis")];
+    let mut entries = Vec::new();
+    // With a tracker on the last end disk alone, there are none unless they are compared.
+    if !run.judged.segments.is_empty() || run.judged.tip_motions(0).is_some() {
+        entries.push(entry(Form::Axis, theme.dim, "screw axis"));
+    }
     if touches {
         entries.push(entry(Form::Ghost, theme.model, "if unconstrained"));
         entries.push(entry(Form::Arrow, theme.force, "contact force"));
