@@ -15,6 +15,7 @@ mod buffer;
 mod mesh;
 mod overlay;
 mod pipelines;
+mod shaders;
 mod snapshot;
 mod target;
 mod uniforms;
@@ -23,7 +24,7 @@ mod view;
 use std::collections::HashMap;
 
 use pipelines::Pipelines;
-pub use pipelines::SHADERS;
+pub use shaders::SHADERS;
 pub use snapshot::{Lost, Pixels, Snapshot};
 use view::View;
 

@@ -25,11 +25,8 @@ use web_sys::HtmlCanvasElement;
 
 #[wasm_bindgen]
 extern "C" {
-    /// How to start, an object `{ renderer, reducedMotion, test, worker, address, fragment, embed, progress, hosted }`.
+    /// How to start, an object `{ reducedMotion, test, worker, address, fragment, embed, progress, hosted }`.
     pub type Options;
-    /// `"webgpu"`, `"webgl"`, or anything else for the better of both.
-    #[wasm_bindgen(method, getter)]
-    fn renderer(this: &Options) -> String;
     /// The person asked for less motion.
     #[wasm_bindgen(method, getter, js_name = reducedMotion)]
     fn reduced_motion(this: &Options) -> bool;
@@ -140,20 +137,14 @@ fn with_hooks(call: impl FnOnce(&Hooks)) {
     });
 }
 
-/// Starts the interface on `canvas`; resolves to the renderer in use, `"webgpu"` or `"webgl"`.
+/// Starts the interface on `canvas`, drawing with WebGPU or what stands in its place (`web/webgl.js`).
 ///
 /// # Errors
-/// Rejects with a message when the renderer cannot be had. The canvas may then be bound to a context
-/// already: try again on a fresh one.
+/// Rejects with a message when that cannot be had. The canvas may then be bound to a context already: try again on a fresh one.
 #[wasm_bindgen]
-pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) -> Result<String, JsValue> {
+pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) -> Result<(), JsValue> {
     HOOKS.set(Some(hooks));
     let runner = RUNNER.with_borrow_mut(|runner| runner.get_or_insert_with(install).clone());
-    let backends = match options.renderer().as_str() {
-        "webgpu" => wgpu::Backends::BROWSER_WEBGPU,
-        "webgl" => wgpu::Backends::GL,
-        _ => wgpu::Backends::BROWSER_WEBGPU | wgpu::Backends::GL,
-    };
     let helper = options.worker().then(|| Box::new(worker::Worker) as Box<dyn Helper>);
     let log_helper = options.worker().then(|| Box::new(logs::Clerk) as Box<dyn Helper>);
     let host = Host {
@@ -167,15 +158,13 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         progress: options.progress(),
     };
     let test = options.test();
-    let name = std::rc::Rc::new(Cell::new(""));
-    let name_out = std::rc::Rc::clone(&name);
     let create = move |cc: &eframe::CreationContext<'_>| {
         cc.egui_ctx.enable_accesskit();
         cc.egui_ctx.add_plugin(mirror::Plugin::default());
         CONTEXT.set(Some(cc.egui_ctx.clone()));
         TEST.set(test);
         if let Some(state) = &cc.wgpu_render_state {
-            name_out.set(watch(state));
+            watch(state);
         }
         let app = match ASIDE.take() {
             Some(aside) => taken_up(aside, cc),
@@ -187,8 +176,7 @@ pub async fn start(canvas: HtmlCanvasElement, options: Options, hooks: Hooks) ->
         }
         Ok(Box::new(Shell { app: Some(app), last_report: String::new() }) as Box<dyn eframe::App>)
     };
-    runner.start(canvas, web_options(backends), Box::new(create)).await?;
-    Ok(name.get().to_owned())
+    runner.start(canvas, web_options(), Box::new(create)).await
 }
 
 /// The interface that was set aside, as it was.
@@ -223,9 +211,9 @@ fn install() -> eframe::WebRunner {
     eframe::WebRunner::new()
 }
 
-fn web_options(backends: wgpu::Backends) -> eframe::WebOptions {
+fn web_options() -> eframe::WebOptions {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = backends;
+    setup.instance_descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
     setup.device_descriptor = Arc::new(|adapter| wgpu::DeviceDescriptor {
         label: Some("centrode device"),
         // What WebGL2 gives everywhere, with the textures as large as this device allows:
@@ -239,20 +227,15 @@ fn web_options(backends: wgpu::Backends) -> eframe::WebOptions {
     }
 }
 
-/// Listens for the end of the device and for WebGPU's late errors; says which renderer this is.
-fn watch(state: &egui_wgpu::RenderState) -> &'static str {
+/// Listens for the end of the device and for its late errors.
+fn watch(state: &egui_wgpu::RenderState) {
     let device = DEVICE.get();
     state.device.set_device_lost_callback(move |_, message| {
         if DEVICE.get() == device {
             with_hooks(|hooks| hooks.lost(&message));
         }
     });
-    if state.adapter.get_info().backend == wgpu::Backend::BrowserWebGpu {
-        state.device.on_uncaptured_error(Arc::new(|error| log::error!("WebGPU: {error}")));
-        "webgpu"
-    } else {
-        "webgl"
-    }
+    state.device.on_uncaptured_error(Arc::new(|error| log::error!("WebGPU: {error}")));
 }
 
 /// Whether the interface is on a canvas.

@@ -113,17 +113,22 @@ function paintOnOtherScreens(core) {
   matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true });
 }
 
+/// Makes ready for a renderer on a fresh canvas.
+async function take(renderer, canvas) {
+  // What an attempt before put in its place.
+  delete navigator.gpu;
+  if (renderer === "webgl") (await import("./webgl.js")).provide(canvas);
+  else if (!(await navigator.gpu?.requestAdapter())) throw new Error("the browser gives no WebGPU adapter");
+}
+
 async function startOnSome(core) {
-  // "auto" falls back by itself where no WebGPU adapter exists, but not when the adapter then refuses a device.
-  const attempts = { auto: ["auto", "webgl"], webgpu: ["webgpu", "webgl"], webgl: ["webgl", "webgpu"] }[settings.renderer];
+  const attempts = settings.renderer === "webgl" ? ["webgl", "webgpu"] : ["webgpu", "webgl"];
   // What was lost twice is not to be relied on.
   if (settings.renderer === "auto" && losses.length === MOST_LOSSES) attempts.reverse();
   const errors = [];
   for (const renderer of attempts) {
     const canvas = freshCanvas();
-    canvas.addEventListener("webglcontextlost", () => canvas.isConnected && lost(""));
     const options = {
-      renderer,
       reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
       test: settings.test,
       worker: settings.worker === "auto",
@@ -134,11 +139,12 @@ async function startOnSome(core) {
       progress: progress.kept(),
     };
     try {
-      const used = await core.start(canvas, options, hooks);
+      await take(renderer, canvas);
+      await core.start(canvas, options, hooks);
       leaveToElements(canvas);
-      mirror.renderer = used;
-      if (settings.renderer !== "auto" && settings.renderer !== used) {
-        notices.push(`renderer=${settings.renderer} is not available in this browser; the page draws with ${used} instead.`);
+      mirror.renderer = renderer;
+      if (settings.renderer !== "auto" && settings.renderer !== renderer) {
+        notices.push(`renderer=${settings.renderer} is not available in this browser; the page draws with ${renderer} instead.`);
       }
       return true;
     } catch (error) {

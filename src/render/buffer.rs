@@ -23,6 +23,7 @@ impl Reused {
         }
         let fits = self.buffer.as_ref().is_some_and(|b| b.size() >= needed);
         if !fits {
+            self.free();
             self.buffer = Some(device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(self.label),
                 size: needed.next_power_of_two().max(4096).min(limit),
@@ -42,5 +43,18 @@ impl Reused {
             Some(buffer) if self.used > 0 => Some(buffer.slice(..self.used)),
             _ => None,
         }
+    }
+
+    fn free(&mut self) {
+        if let Some(buffer) = self.buffer.take() {
+            buffer.destroy();
+        }
+    }
+}
+
+/// At once, as `Target`.
+impl Drop for Reused {
+    fn drop(&mut self) {
+        self.free();
     }
 }

@@ -3,32 +3,10 @@
 use super::{
     mesh::Vertex,
     overlay::{Piece, Sign},
+    shaders::{BACKDROP, BLIT, GROUND, LINE, MARKER, SHADOW, SOLID},
     target::{COLOR, DEPTH, SAMPLES},
     uniforms::Globals,
 };
-
-macro_rules! shader {
-    ($($file:literal),+) => { concat!($(include_str!(concat!("shaders/", $file, ".wgsl")), "\n"),+) };
-}
-
-const SOLID: &str = shader!("common", "light", "solid");
-const SHADOW: &str = shader!("common", "shadow");
-const GROUND: &str = shader!("common", "light", "ground");
-const LINE: &str = shader!("common", "line");
-const MARKER: &str = shader!("common", "marker");
-const BACKDROP: &str = shader!("common", "backdrop");
-const BLIT: &str = shader!("blit");
-
-/// Every shader by name, in WGSL: for tests that validate and translate them.
-pub const SHADERS: [(&str, &str); 7] = [
-    ("solid", SOLID),
-    ("shadow", SHADOW),
-    ("ground", GROUND),
-    ("line", LINE),
-    ("marker", MARKER),
-    ("backdrop", BACKDROP),
-    ("blit", BLIT),
-];
 
 /// Depth of the shadow map.
 pub(super) const SHADOW_DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;

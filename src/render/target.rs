@@ -62,6 +62,15 @@ impl Target {
     }
 }
 
+/// At once: a browser frees what is dropped only when it collects garbage, of which it does not know how large it is.
+impl Drop for Target {
+    fn drop(&mut self) {
+        for view in [&self.samples, &self.depth, &self.resolved] {
+            view.texture().destroy();
+        }
+    }
+}
+
 /// The size to draw at, and its ratio to the size asked for: at least one pixel, at most what the device and memory allow,
 /// both sides shrunk alike.
 pub(super) fn fitting(asked: [u32; 2], max_side: u32) -> ([u32; 2], f32) {

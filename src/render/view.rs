@@ -30,6 +30,14 @@ pub(super) struct View {
     painted: AtomicBool,
 }
 
+/// At once, as `Target`.
+impl Drop for View {
+    fn drop(&mut self) {
+        self.globals.destroy();
+        self.shadow_map.texture().destroy();
+    }
+}
+
 /// What a finished picture depends on.
 #[derive(Clone, Copy, PartialEq)]
 struct Drawn {

@@ -15,6 +15,7 @@ pub mod licences;
 mod linked;
 pub mod paths;
 pub mod sbom;
+mod shaders;
 pub mod single;
 
 /// Files by their path inside the page.
@@ -51,8 +52,11 @@ pub fn build(which: Which) -> Result<PathBuf> {
     let start = Instant::now();
     tools::wasm_target()?;
     let module = compile(dev)?;
-    let beside = Beside::make()?;
-    let files = page(&root(), bind(&module)?, &beside, which == Which::WithSingle)?;
+    let parts = linked::parts()?;
+    let beside = Beside::make(&parts)?;
+    let mut bound = bind(&module)?;
+    bound.insert(shaders::NAME.into(), shaders::module(&parts)?);
+    let files = page(&root(), bound, &beside, which == Which::WithSingle)?;
     let dist = root().join("dist");
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
@@ -72,9 +76,8 @@ struct Beside {
 }
 
 impl Beside {
-    fn make() -> Result<Self> {
-        let parts = linked::parts()?;
-        Ok(Self { theory: theory::make()?, licences: licences::page(&parts)?, sbom: sbom::document(&parts)? })
+    fn make(parts: &[linked::Part]) -> Result<Self> {
+        Ok(Self { theory: theory::make()?, licences: licences::page(parts)?, sbom: sbom::document(parts)? })
     }
 }
 
