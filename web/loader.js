@@ -182,6 +182,8 @@ function begin(core) {
 
 async function main() {
   passThrough(() => running);
+  // Will be wanted; whether it is there is seen then.
+  if (!navigator.gpu) import("./webgl.js").catch(() => {});
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);

@@ -63,7 +63,7 @@ function program(gl, name, shaders) {
 
 function state(gl, { vertex, fragment, primitive = {}, depthStencil, multisample }) {
   const topologies = { "triangle-list": gl.TRIANGLES, "triangle-strip": gl.TRIANGLE_STRIP };
-  const faces = { none: null, front: gl.FRONT, back: gl.BACK };
+  const faces = { front: gl.FRONT, back: gl.BACK };
   if (multisample?.alphaToCoverageEnabled) refuse("coverage by alpha");
   const target = fragment?.targets[0];
   return {

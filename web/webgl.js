@@ -78,7 +78,9 @@ class Device {
     this.queue = new Queue(surface);
     this.#pipeline = pipelines(gl);
     this.lost = new Promise((end) => (this.#end = end));
-    gl.canvas.addEventListener("webglcontextlost", () => this.#end({ reason: "unknown", message: "The WebGL context was lost." }));
+    const lose = () => this.#end({ reason: "unknown", message: "The WebGL context was lost." });
+    gl.canvas.addEventListener("webglcontextlost", lose);
+    if (gl.isContextLost()) lose();
   }
 
   destroy() {

@@ -42,6 +42,25 @@ fn the_renderer_can_be_chosen() {
 }
 
 #[test]
+fn both_renderers_draw_the_same_picture() {
+    let [webgl, webgpu] = [Renderer::WebGl, Renderer::WebGpu].map(|renderer| {
+        let options = Options { still: true, ..Options::default() };
+        let mut page = Page::open(renderer, "?test#preset=bench&t=6.5&loop=off", options);
+        let mut before = page.picture();
+        page.wait("a picture that stays", |page| {
+            (0..4).for_each(|_| page.frames());
+            let last = std::mem::replace(&mut before, page.picture());
+            (before.changed(&last, Area::ALL) == 0).then_some(())
+        });
+        before
+    });
+    let apart = webgl.changed(&webgpu, Area::ALL);
+    println!("pixels that differ between WebGL2 and WebGPU: {apart}");
+    // Edges are rounded one way or the other; a body turned inside out or a shadow that is missing is thousands.
+    assert!(apart < 1000, "{apart} pixels differ");
+}
+
+#[test]
 fn says_its_state_in_words() {
     let mut page = Page::open(Renderer::WebGl, "?test", Options::default());
     let first = page.number("time").expect("a time");

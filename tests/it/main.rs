@@ -66,7 +66,6 @@ mod released;
 mod render;
 mod reproducible;
 #[cfg(feature = "gui-tests")]
-mod shaders;
 mod shares;
 #[cfg(all(feature = "cli", unix))]
 mod shares_command;

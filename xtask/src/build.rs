@@ -61,7 +61,7 @@ pub fn build(which: Which) -> Result<PathBuf> {
     write(&dist, &files)?;
     println!("page built in {:.1} s: dist/", start.elapsed().as_secs_f64());
     if !dev {
-        transfer::print(&files);
+        transfer::check(&files)?;
     }
     Ok(dist)
 }
