@@ -8,7 +8,7 @@
 //! opaque bodies, the floor, translucent bodies from far to near, lines, markers; that resolves to a texture, which
 //! `paint` lays over the target. Colours are gamma-encoded with premultiplied alpha throughout, as egui's own.
 //!
-//! It keeps to what WebGL2 can do: no storage buffers, instances from vertex buffers, no first instance, four samples.
+//! It keeps to what WebGL2 can do, by `web/webgl.js`, which must know every format, factor and comparison used here: no storage buffers, instances from vertex buffers, no first instance, four samples.
 
 mod batch;
 mod buffer;
@@ -70,7 +70,7 @@ impl Renderer {
     /// A picture counts from [`Self::paint`] on: whoever paints must submit the encoder given here. A frame that is
     /// given up before is drawn again.
     ///
-    /// At most one frame of a view may be prepared between two submissions.
+    /// At most one frame of a view may be prepared between two submissions: what the next one does without is freed at once.
     pub fn prepare(
         &mut self,
         device: &wgpu::Device,
@@ -102,7 +102,7 @@ impl Renderer {
         }
     }
 
-    /// Frees what belongs to a view.
+    /// Frees what belongs to a view. Not between preparing a frame of it and submitting that.
     pub fn forget(&mut self, view: ViewId) {
         self.views.remove(&view);
     }

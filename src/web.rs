@@ -213,6 +213,7 @@ fn install() -> eframe::WebRunner {
 
 fn web_options() -> eframe::WebOptions {
     let mut setup = egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    // In a page that is not secure, too, where the browser has no WebGPU and `web/webgl.js` is in its place.
     setup.instance_descriptor.backends = wgpu::Backends::BROWSER_WEBGPU;
     setup.device_descriptor = Arc::new(|adapter| wgpu::DeviceDescriptor {
         label: Some("centrode device"),

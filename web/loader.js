@@ -113,12 +113,11 @@ function paintOnOtherScreens(core) {
   matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", change, { once: true });
 }
 
-/// Makes ready for a renderer on a fresh canvas.
-async function take(renderer, canvas) {
-  // What an attempt before put in its place.
+/// Whether the browser has WebGPU itself.
+async function hasWebGpu() {
+  // What an attempt with WebGL put in its place.
   delete navigator.gpu;
-  if (renderer === "webgl") (await import("./webgl.js")).provide(canvas);
-  else if (!(await navigator.gpu?.requestAdapter())) throw new Error("the browser gives no WebGPU adapter");
+  return Boolean(await navigator.gpu?.requestAdapter());
 }
 
 async function startOnSome(core) {
@@ -128,6 +127,8 @@ async function startOnSome(core) {
   const errors = [];
   for (const renderer of attempts) {
     const canvas = freshCanvas();
+    // One that does not arrive is no matter of graphics.
+    const webgl = renderer === "webgl" && (await import("./webgl.js"));
     const options = {
       reducedMotion: matchMedia("(prefers-reduced-motion: reduce)").matches,
       test: settings.test,
@@ -139,7 +140,8 @@ async function startOnSome(core) {
       progress: progress.kept(),
     };
     try {
-      await take(renderer, canvas);
+      if (webgl) webgl.provide(canvas);
+      else if (!(await hasWebGpu())) throw new Error("the browser gives no WebGPU adapter");
       await core.start(canvas, options, hooks);
       leaveToElements(canvas);
       mirror.renderer = renderer;
@@ -182,8 +184,8 @@ function begin(core) {
 
 async function main() {
   passThrough(() => running);
-  // Will be wanted; whether it is there is seen then.
-  if (!navigator.gpu) import("./webgl.js").catch(() => {});
+  // Fetched while the program is. If it does not arrive, that is told when it is used.
+  hasWebGpu().then((has) => has || import("./webgl.js")).catch(() => {});
   const script = document.querySelector("script[data-wasm-bytes]");
   const core = await import("./centrode.js");
   const wasm = await download(program(), Number(script.dataset.wasmBytes), showProgress);

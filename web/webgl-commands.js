@@ -12,12 +12,13 @@ export class Encoder {
 
   beginRenderPass(descriptor) {
     const commands = this.#commands;
-    const run = new Run(this.#gl, descriptor);
-    commands.push(() => run.begin());
-    return new Pass(commands, run);
+    const drawn = new DrawnPass(this.#gl, descriptor);
+    commands.push(() => drawn.begin());
+    return new Pass(commands, drawn);
   }
 
-  copyTextureToBuffer({ texture }, { buffer, offset = 0, bytesPerRow }, { width, height }) {
+  copyTextureToBuffer({ texture, origin }, { buffer, offset = 0, bytesPerRow }, { width, height }) {
+    if (origin?.x || origin?.y) refuse("copies from within a picture");
     const gl = this.#gl;
     this.#commands.push(() => {
       gl.bindFramebuffer(gl.FRAMEBUFFER, texture.framebuffer());
@@ -34,63 +35,63 @@ export class Encoder {
 /// What the program calls between the beginning of a pass and its end.
 class Pass {
   #commands;
-  #run;
+  #drawn;
 
-  constructor(commands, run) {
+  constructor(commands, drawn) {
     this.#commands = commands;
-    this.#run = run;
+    this.#drawn = drawn;
   }
 
   setPipeline(pipeline) {
-    this.#commands.push(() => this.#run.use(pipeline));
+    this.#commands.push(() => this.#drawn.use(pipeline));
   }
 
   setBindGroup(index, group, ...offsets) {
     if (offsets.length) refuse("offsets of a bind group");
-    this.#commands.push(() => this.#run.bind(index, group));
+    this.#commands.push(() => this.#drawn.bind(index, group));
   }
 
   setVertexBuffer(slot, buffer, offset = 0) {
-    this.#commands.push(() => this.#run.vertices(slot, buffer, offset));
+    this.#commands.push(() => this.#drawn.vertices(slot, buffer, offset));
   }
 
   setIndexBuffer(buffer, format, offset = 0) {
     if (format !== "uint32") refuse(`indices as ${format}`);
-    this.#commands.push(() => this.#run.indices(buffer, offset));
+    this.#commands.push(() => this.#drawn.indices(buffer, offset));
   }
 
   setViewport(...given) {
-    this.#commands.push(() => this.#run.viewport(...given));
+    this.#commands.push(() => this.#drawn.viewport(...given));
   }
 
   setScissorRect(...given) {
-    this.#commands.push(() => this.#run.scissor(...given));
+    this.#commands.push(() => this.#drawn.scissor(...given));
   }
 
   draw(count, instances = 1, first = 0, firstInstance = 0) {
     if (firstInstance) refuse("a first instance");
-    this.#commands.push(() => this.#run.draw(count, instances, first));
+    this.#commands.push(() => this.#drawn.draw(count, instances, first));
   }
 
   drawIndexed(count, instances = 1, first = 0, base = 0, firstInstance = 0) {
     if (base || firstInstance) refuse("a first vertex or instance of indices");
-    this.#commands.push(() => this.#run.drawIndexed(count, instances, first));
+    this.#commands.push(() => this.#drawn.drawIndexed(count, instances, first));
   }
 
   end() {
-    this.#commands.push(() => this.#run.end());
+    this.#commands.push(() => this.#drawn.end());
   }
 }
 
 /// A pass as it is drawn.
-class Run {
+class DrawnPass {
   #gl;
   #color;
   #depth;
   #pipeline = null;
   #groups = [];
   #buffers = [];
-  #index = null;
+  #indexOffset = 0;
   // Whether WebGL is behind what was set.
   #bound = false;
   #pointed = false;
@@ -171,7 +172,7 @@ class Run {
 
   indices(buffer, offset) {
     this.#gl.bindBuffer(this.#gl.ELEMENT_ARRAY_BUFFER, buffer.handle);
-    this.#index = offset;
+    this.#indexOffset = offset;
   }
 
   viewport(x, y, width, height, near, far) {
@@ -192,7 +193,7 @@ class Run {
   drawIndexed(count, instances, first) {
     const gl = this.#gl;
     this.#ready();
-    gl.drawElementsInstanced(this.#pipeline.topology, count, gl.UNSIGNED_INT, this.#index + 4 * first, instances);
+    gl.drawElementsInstanced(this.#pipeline.topology, count, gl.UNSIGNED_INT, this.#indexOffset + 4 * first, instances);
   }
 
   #ready() {

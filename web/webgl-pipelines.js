@@ -2,6 +2,8 @@
 import { SHADERS } from "./shaders.js";
 import { comparison, known, refuse } from "./webgl-resources.js";
 
+// Of GPUColorWrite: every colour.
+const ALL = 0xf;
 // A pass without colours draws depth alone.
 const NO_FRAGMENTS = "#version 300 es\nvoid main() {}\n";
 
@@ -31,17 +33,23 @@ function sum(text) {
   return sum >>> 0;
 }
 
+// What stands for a program once the context is lost, which then makes none.
+const LOST = { program: null, uniforms: [], textures: [] };
+
 function program(gl, name, shaders) {
   const program = gl.createProgram();
+  if (!program) return LOST;
   for (const [k, kind] of [gl.VERTEX_SHADER, gl.FRAGMENT_SHADER].entries()) {
     const part = gl.createShader(kind);
+    if (!part) return LOST;
     gl.shaderSource(part, shaders[k].glsl);
     gl.compileShader(part);
     gl.attachShader(program, part);
     gl.deleteShader(part);
   }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+    if (gl.isContextLost()) return LOST;
     const said = gl.getAttachedShaders(program).map((part) => gl.getShaderInfoLog(part));
     throw new Error(`the shaders ${name} do not link: ${[gl.getProgramInfoLog(program), ...said].join("\n")}`);
   }
@@ -66,6 +74,7 @@ function state(gl, { vertex, fragment, primitive = {}, depthStencil, multisample
   const faces = { front: gl.FRONT, back: gl.BACK };
   if (multisample?.alphaToCoverageEnabled) refuse("coverage by alpha");
   const target = fragment?.targets[0];
+  if ((target?.writeMask ?? ALL) !== ALL) refuse("some of the colours");
   return {
     topology: known(topologies, primitive.topology ?? "triangle-list", "topology"),
     cull: primitive.cullMode === "none" ? null : known(faces, primitive.cullMode, "side"),

@@ -62,7 +62,7 @@ export class Buffer {
 
   destroy() {
     this.#gl.deleteBuffer(this.handle);
-    this.handle = null;
+    this.handle = this.bytes = this.#mapped = null;
   }
 }
 
@@ -78,12 +78,13 @@ export class Texture {
   #framebuffers = new Map();
 
   constructor(gl, { format: name, size, usage, sampleCount = 1, mipLevelCount = 1 }) {
-    if (mipLevelCount !== 1) refuse("mipmaps");
+    if (mipLevelCount !== 1 || (size.depthOrArrayLayers ?? 1) !== 1) refuse("mipmaps or layers");
     this.#gl = gl;
     ({ width: this.width, height: this.height } = size);
     this.isDepth = name.startsWith("depth");
-    // What is only drawn to.
+    // What is only drawn to need not be a texture.
     if (usage & (TEXTURE_BINDING | COPY_DST)) {
+      if (sampleCount !== 1) refuse("several samples of a texture that is read");
       this.handle = gl.createTexture();
       gl.bindTexture(gl.TEXTURE_2D, this.handle);
       gl.texStorage2D(gl.TEXTURE_2D, 1, format(gl, name), this.width, this.height);
@@ -153,6 +154,8 @@ export class Sampler {
     const addresses = { "clamp-to-edge": gl.CLAMP_TO_EDGE, repeat: gl.REPEAT, "mirror-repeat": gl.MIRRORED_REPEAT };
     const filters = { nearest: gl.NEAREST, linear: gl.LINEAR };
     this.handle = gl.createSampler();
+    // Lost, as all is then.
+    if (!this.handle) return;
     const set = (name, value) => gl.samplerParameteri(this.handle, name, value);
     set(gl.TEXTURE_WRAP_S, known(addresses, addressModeU ?? "clamp-to-edge", "address mode"));
     set(gl.TEXTURE_WRAP_T, known(addresses, addressModeV ?? "clamp-to-edge", "address mode"));

@@ -12,14 +12,13 @@ const RENDER_ATTACHMENT = 0x10;
 /// Puts it in the place of WebGPU until `navigator.gpu` is deleted, drawing on `canvas`, which must be fresh. Throws where there is no WebGL2.
 export function provide(canvas) {
   const gl = canvas.getContext("webgl2", { alpha: false, antialias: false, depth: false, stencil: false });
-  if (!gl) throw new Error("the browser gives no WebGL2 context");
+  if (!gl || gl.isContextLost()) throw new Error("the browser gives no WebGL2 context");
   const surface = new Surface(gl);
   canvas.getContext = (kind) => (kind === "webgpu" ? surface : HTMLCanvasElement.prototype.getContext.call(canvas, kind));
   Object.defineProperty(navigator, "gpu", { configurable: true, value: new Gpu(gl, surface) });
 }
 
 class Gpu {
-  wgslLanguageFeatures = new Set();
   #gl;
   #surface;
 
@@ -51,10 +50,6 @@ class Adapter {
       maxTextureDimension1D: side,
       maxTextureDimension2D: side,
       maxTextureDimension3D: gl.getParameter(gl.MAX_3D_TEXTURE_SIZE),
-      maxTextureArrayLayers: gl.getParameter(gl.MAX_ARRAY_TEXTURE_LAYERS),
-      maxUniformBufferBindingSize: gl.getParameter(gl.MAX_UNIFORM_BLOCK_SIZE),
-      minUniformBufferOffsetAlignment: gl.getParameter(gl.UNIFORM_BUFFER_OFFSET_ALIGNMENT),
-      maxVertexAttributes: gl.getParameter(gl.MAX_VERTEX_ATTRIBS),
       maxBufferSize: LARGEST_BUFFER,
     };
   }
@@ -66,6 +61,7 @@ class Adapter {
 
 class Device {
   features = new Set();
+  // Never called: what is wrong, WebGL says to the console.
   onuncapturederror = null;
   #gl;
   #pipeline;
@@ -81,10 +77,6 @@ class Device {
     const lose = () => this.#end({ reason: "unknown", message: "The WebGL context was lost." });
     gl.canvas.addEventListener("webglcontextlost", lose);
     if (gl.isContextLost()) lose();
-  }
-
-  destroy() {
-    this.#end({ reason: "destroyed", message: "" });
   }
 
   createBuffer(descriptor) {
@@ -123,13 +115,6 @@ class Device {
   createCommandEncoder(descriptor) {
     return new Encoder(this.#gl, descriptor);
   }
-
-  // What is wrong, WebGL says to the console.
-  pushErrorScope() {}
-
-  async popErrorScope() {
-    return null;
-  }
 }
 
 class Queue {
@@ -151,9 +136,6 @@ class Queue {
     for (const commands of buffers) for (const command of commands) command();
     this.#surface.show();
   }
-
-  // Whatever comes later waits for it by itself.
-  async onSubmittedWorkDone() {}
 }
 
 /// The canvas. WebGPU counts rows from the top, WebGL from the bottom: all is drawn upside down, and turned over as it comes on the canvas.

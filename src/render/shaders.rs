@@ -12,7 +12,7 @@ pub const MARKER: &str = shader!("common", "marker");
 pub const BACKDROP: &str = shader!("common", "backdrop");
 pub const BLIT: &str = shader!("blit");
 
-/// Every shader by name, in WGSL: for the build, which translates them for WebGL, and for tests.
+/// Every shader by name, in WGSL: for the build, which translates them for WebGL.
 pub const SHADERS: [(&str, &str); 7] = [
     ("solid", SOLID),
     ("shadow", SHADOW),

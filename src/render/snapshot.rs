@@ -90,6 +90,13 @@ impl Snapshot {
     }
 }
 
+/// At once, as `Target`.
+impl Drop for Snapshot {
+    fn drop(&mut self) {
+        self.buffer.destroy();
+    }
+}
+
 /// A pixel whose colour is no longer multiplied by its alpha.
 fn straight(pixel: &[u8]) -> [u8; 4] {
     let &[red, green, blue, alpha] = pixel else { return [0; 4] };

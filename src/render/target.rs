@@ -62,7 +62,7 @@ impl Target {
     }
 }
 
-/// At once: a browser frees what is dropped only when it collects garbage, of which it does not know how large it is.
+/// At once: else a browser frees it with its garbage, late, for it does not see how large a texture is.
 impl Drop for Target {
     fn drop(&mut self) {
         for view in [&self.samples, &self.depth, &self.resolved] {

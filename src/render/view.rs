@@ -30,14 +30,6 @@ pub(super) struct View {
     painted: AtomicBool,
 }
 
-/// At once, as `Target`.
-impl Drop for View {
-    fn drop(&mut self) {
-        self.globals.destroy();
-        self.shadow_map.texture().destroy();
-    }
-}
-
 /// What a finished picture depends on.
 #[derive(Clone, Copy, PartialEq)]
 struct Drawn {
@@ -261,5 +253,13 @@ impl View {
                 }
             }
         }
+    }
+}
+
+/// At once, as `Target`.
+impl Drop for View {
+    fn drop(&mut self) {
+        self.globals.destroy();
+        self.shadow_map.texture().destroy();
     }
 }

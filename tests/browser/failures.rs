@@ -136,6 +136,29 @@ pub fn a_panic_keeps_what_is_set(page: &mut Page) {
     assert_eq!(address.as_str().and_then(|address| address.split('#').nth(1)).unwrap_or_default(), "");
 }
 
+/// Loses the first context as its first shader is made.
+const LOSE_EARLY: &str = "const { prototype } = WebGL2RenderingContext; const make = prototype.createShader; \
+    globalThis.lost = 0; \
+    prototype.createShader = function (kind) { \
+      if (lost++ === 0) this.getExtension('WEBGL_lose_context').loseContext(); \
+      return make.call(this, kind); };";
+
+#[test]
+fn a_context_lost_while_the_page_starts_comes_back() {
+    let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
+    page.before_scripts(LOSE_EARLY);
+    let address = page.eval("location.href");
+    page.browse("about:blank");
+    page.go(address.as_str().expect("an address"));
+    page.wait("the page on a fresh canvas", |page| match page.shown().as_str() {
+        "running" => (page.eval("lost > 1 && centrode.is_drawing()") == true).then_some(()),
+        "loading" => None,
+        other => panic!("the page shows {other:?}: {}", page.text(&format!("#{other}"))),
+    });
+    page.frames();
+    assert!(page.picture().colours(Area(0.3, 0.2, 0.7, 0.6)) > 8, "the middle of the page is blank");
+}
+
 #[test]
 fn a_lost_context_comes_back() {
     lost::lost_graphics_come_back(&mut Page::open(Renderer::WebGl, lost::STATE, Options::default()));
@@ -182,7 +205,12 @@ fn storage_never_stops_the_page() {
 
 #[test]
 fn a_program_that_does_not_arrive_is_told() {
-    for (file, word) in [("centrode_bg.wasm", "404"), ("centrode.js", "centrode.js"), ("loader.js", "did not arrive")] {
+    for (file, word) in [
+        ("centrode_bg.wasm", "404"),
+        ("centrode.js", "centrode.js"),
+        ("loader.js", "did not arrive"),
+        ("shaders.js", "webgl.js"),
+    ] {
         let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
         // The address of a part that is not there any more, as after an update of the site in mid-load.
         page.block(file, 404);

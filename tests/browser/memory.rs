@@ -7,15 +7,18 @@ use serde_json::{Value, json};
 /// times as much.
 const MOST: u64 = 4 << 20;
 
-/// Counts what WebGL is asked to make and not to delete, but for fences, some of which are always on their way.
+/// Counts what WebGL is asked to make and not to delete.
 const COUNT: &str = "globalThis.objects = {}; \
     for (const name of Object.getOwnPropertyNames(WebGL2RenderingContext.prototype)) { \
       const [, act, kind] = /^(create|delete)([A-Z]\\w+)$/.exec(name) ?? []; \
-      if (!act || kind === 'Sync') continue; \
+      if (!act) continue; \
       const does = WebGL2RenderingContext.prototype[name]; \
       WebGL2RenderingContext.prototype[name] = function (...given) { \
         if (act === 'create' || given[0]) objects[kind] = (objects[kind] ?? 0) + (act === 'create' ? 1 : -1); \
         return does.apply(this, given); }; }";
+
+/// No larger than it need be: software draws slowly.
+const SIZE: [u32; 2] = [1000, 640];
 
 /// A round of what a person does: contacts, a filter, thresholds, another preset, a seed, while the run plays.
 const ROUND: [&str; 8] = [
@@ -29,12 +32,18 @@ const ROUND: [&str; 8] = [
     "preset=bench&seed=3",
 ];
 
-/// Goes through so many rounds, two frames for each thing.
+/// Goes through so many rounds, two frames for each thing; in each the window is made smaller, and as large as before.
 #[track_caller]
 fn rounds(page: &mut Page, count: usize) {
-    for link in (0..count).flat_map(|_| ROUND) {
-        page.eval(&format!("(centrode.go({}), 1)", json!(link)));
-        page.frames();
+    for _ in 0..count {
+        for link in ROUND {
+            page.eval(&format!("(centrode.go({}), 1)", json!(link)));
+            page.frames();
+        }
+        for size in [[900, 600], SIZE] {
+            page.resize(size);
+            page.frames();
+        }
     }
 }
 
@@ -47,8 +56,7 @@ fn taken(page: &mut Page) -> (u64, Value) {
 
 #[track_caller]
 fn stays_as_large(renderer: Renderer, round: usize) {
-    // No larger than it need be: software draws slowly.
-    let mut page = Page::visit(renderer, "?test", Options { size: [1000, 640], ..Options::default() });
+    let mut page = Page::visit(renderer, "?test", Options { size: SIZE, ..Options::default() });
     page.before_scripts(COUNT);
     let address = page.eval("location.href");
     page.browse("about:blank");

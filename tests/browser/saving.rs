@@ -75,7 +75,7 @@ fn a_figure_is_saved_as_the_command_draws_it() {
 
 #[test]
 fn the_3d_view_is_saved_with_and_without_its_background() {
-    for renderer in [Renderer::WebGl, Renderer::WebGpu] {
+    let pictures = [Renderer::WebGl, Renderer::WebGpu].map(|renderer| {
         let mut page = Page::open(renderer, "?test#preset=bench&t=6", Options::default());
         page.eval(LOOK);
         let (name, png) = saved(&mut page, "Save 3D view", "PNG (2×)");
@@ -93,5 +93,8 @@ fn the_3d_view_is_saved_with_and_without_its_background() {
         let opaque = bytes.chunks_exact(4).filter(|pixel| pixel[3] == 255).count();
         assert!(bytes[3] == 0 && opaque > bytes.len() / 4 / 100, "{renderer:?}: {opaque} pixels of the robot");
         assert_eq!(page.problems(), Vec::<String>::new());
-    }
+        picture
+    });
+    let apart = pictures[0].changed(&pictures[1], Area::ALL);
+    assert!(apart < 1000, "{apart} pixels differ between WebGL2 and WebGPU");
 }

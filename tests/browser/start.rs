@@ -42,10 +42,22 @@ fn the_renderer_can_be_chosen() {
 }
 
 #[test]
+fn draws_by_plain_http_from_another_machine() {
+    let mut page = Page::visit(Renderer::Both, "?test", Options::default());
+    let address = page.eval("location.href.replace(location.hostname, 'page.test')");
+    page.go(address.as_str().expect("an address"));
+    page.wait("the page to be ready", |page| (page.data("ready").as_deref() == Some("true")).then_some(()));
+    // No browser gives WebGPU there.
+    assert_eq!(page.eval("isSecureContext"), false);
+    draws_and_moves(&mut page, "webgl");
+}
+
+#[test]
 fn both_renderers_draw_the_same_picture() {
     let [webgl, webgpu] = [Renderer::WebGl, Renderer::WebGpu].map(|renderer| {
         let options = Options { still: true, ..Options::default() };
         let mut page = Page::open(renderer, "?test#preset=bench&t=6.5&loop=off", options);
+        assert_eq!(page.data("renderer"), Some(format!("{renderer:?}").to_lowercase()));
         let mut before = page.picture();
         page.wait("a picture that stays", |page| {
             (0..4).for_each(|_| page.frames());

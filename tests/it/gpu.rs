@@ -13,7 +13,7 @@ impl Gpu {
     /// Panics when there is no adapter: the test command installs one.
     pub fn new() -> Self {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
-            // WGPU_BACKEND=gl runs the code path that WebGL2 takes.
+            // WGPU_BACKEND chooses another.
             backends: wgpu::Backends::from_env().unwrap_or(wgpu::Backends::VULKAN | wgpu::Backends::GL),
             ..wgpu::InstanceDescriptor::new_without_display_handle()
         });

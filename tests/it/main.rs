@@ -65,7 +65,6 @@ mod released;
 #[cfg(feature = "gui-tests")]
 mod render;
 mod reproducible;
-#[cfg(feature = "gui-tests")]
 mod shares;
 #[cfg(all(feature = "cli", unix))]
 mod shares_command;

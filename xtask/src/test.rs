@@ -49,7 +49,7 @@ enum Stage {
     Aarch64,
     /// What others use is packed and compiled as they get it, and with the oldest Rust that it states
     Package,
-    /// The page and the theory beside it are built, their sizes are told
+    /// The page and the theory beside it are built, and no larger than they may be
     Page,
     /// The built page in real browsers: Chromium, Firefox and WebKit
     Browser,

@@ -60,7 +60,7 @@ fn compressed(bytes: &[u8]) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{compressed, visited};
+    use super::*;
 
     #[test]
     fn a_visitor_loads_the_page_and_not_what_lies_beside_it() {
@@ -77,6 +77,20 @@ mod tests {
         ] {
             assert!(!visited(name), "{name}");
         }
+    }
+
+    #[test]
+    fn a_page_that_is_too_large_is_refused() {
+        // Random enough that nothing repeats.
+        let mut state = 1u64;
+        let mut byte = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 56) as u8
+        };
+        let mut page = |size| check(&[("program".to_owned(), (0..size).map(|_| byte()).collect())].into());
+        assert!(page(1000).is_ok());
+        let refused = page(LARGEST).unwrap_err().to_string();
+        assert!(refused.starts_with("a visitor loads 20000") && refused.contains("2000000 are allowed"), "{refused}");
     }
 
     #[test]

@@ -84,6 +84,8 @@ impl Chromium {
             .args(["--disable-background-networking", "--disable-component-update", "--disable-sync"])
             .args(["--disable-dev-shm-usage", "--hide-scrollbars", "--force-color-profile=srgb"])
             .args(["--disable-renderer-backgrounding", "--disable-backgrounding-occluded-windows"])
+            // Another machine, for all that the browser knows.
+            .arg("--host-resolver-rules=MAP page.test 127.0.0.1")
             .args(renderer.flags())
             .arg(format!("--force-device-scale-factor={scale}"))
             .arg(format!("--user-data-dir={}", profile.display()))

@@ -76,6 +76,11 @@ fn ordered(parts: &Files) -> Result<Vec<(&str, &str)>> {
         left.insert(name, text(parts, name)?);
     }
     let mut modules = Vec::new();
+    for (name, source) in &left {
+        for other in imports(source) {
+            ensure!(left.contains_key(other), "{name} imports {other}, which is not there");
+        }
+    }
     while !left.is_empty() {
         let free = |(_, source): &(&&str, &&str)| !imports(source).any(|other| left.contains_key(other));
         let Some((&name, &source)) = left.iter().find(free) else {
@@ -116,6 +121,8 @@ mod tests {
         assert_eq!(names, ["c.js", "b.js", "a.js"]);
         let round = parts("import \"./a.js\"");
         assert!(ordered(&round).unwrap_err().to_string().contains("a.js"));
+        let lonely = parts("import \"./d.js\"");
+        assert_eq!(ordered(&lonely).unwrap_err().to_string(), "a.js imports d.js, which is not there");
         let folder = Files::from([("snippets/a.js".into(), Vec::new())]);
         assert!(ordered(&folder).unwrap_err().to_string().contains("snippets/a.js"));
     }
