@@ -8,7 +8,8 @@
 //! opaque bodies, the floor, translucent bodies from far to near, lines, markers; that resolves to a texture, which
 //! `paint` lays over the target. Colours are gamma-encoded with premultiplied alpha throughout, as egui's own.
 //!
-//! It keeps to what WebGL2 can do, by `web/webgl.js`, which must know every format, factor and comparison used here: no storage buffers, instances from vertex buffers, no first instance, four samples.
+//! It keeps to what WebGL2 can do: no storage buffers, instances from vertex buffers, no first instance, four samples.
+//! `web/webgl*.js` must know every format, factor and comparison that is used here.
 
 mod batch;
 mod buffer;
