@@ -92,9 +92,13 @@ fn ordered(parts: &Files) -> Result<Vec<(&str, &str)>> {
     Ok(modules)
 }
 
-/// The modules that one imports.
+/// The modules that one imports, as `unpack.js` finds them: a name elsewhere is none.
 fn imports(source: &str) -> impl Iterator<Item = &str> {
-    source.split("\"./").skip(1).filter_map(|rest| rest.split('"').next()).filter(|name| name.ends_with(".js"))
+    source.match_indices("\"./").filter_map(|(at, quote)| {
+        let before = source[..at].trim_end().trim_end_matches('(').trim_end();
+        let name = source[at + quote.len()..].split('"').next()?;
+        (name.ends_with(".js") && (before.ends_with("from") || before.ends_with("import"))).then_some(name)
+    })
 }
 
 #[cfg(test)]
@@ -104,7 +108,7 @@ mod tests {
     fn parts(a: &str) -> Files {
         [
             ("a.js", a),
-            ("b.js", "import { c } from \"./c.js\";"),
+            ("b.js", "import { c } from \"./c.js\"; const named = { \"./d.js\": c };"),
             ("c.js", "1"),
             ("icon.svg", "<svg/>"),
             (PROGRAM, "wasm"),
