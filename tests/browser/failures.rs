@@ -82,12 +82,9 @@ fn a_renderer_that_is_not_there_is_replaced() {
 
 #[test]
 fn a_refused_device_falls_back_to_webgl() {
-    let mut page = Page::visit(Renderer::Both, "?test", Options::default());
-    page.before_scripts(
-        "if (self.GPUAdapter) GPUAdapter.prototype.requestDevice = () => Promise.reject(new Error('refused'));",
-    );
-    let address = page.eval("location.href");
-    page.go(address.as_str().expect("an address"));
+    let refuse =
+        "if (self.GPUAdapter) GPUAdapter.prototype.requestDevice = () => Promise.reject(new Error('refused'));";
+    let mut page = Page::visit_after(refuse, Renderer::Both, "?test", Options::default());
     page.wait("the page to run", |page| (page.shown() == "running").then_some(()));
     assert_eq!(page.data("renderer").as_deref(), Some("webgl"));
 }
@@ -145,11 +142,7 @@ const LOSE_EARLY: &str = "const { prototype } = WebGL2RenderingContext; const ma
 
 #[test]
 fn a_context_lost_while_the_page_starts_comes_back() {
-    let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
-    page.before_scripts(LOSE_EARLY);
-    let address = page.eval("location.href");
-    page.browse("about:blank");
-    page.go(address.as_str().expect("an address"));
+    let mut page = Page::visit_after(LOSE_EARLY, Renderer::WebGl, "?test", Options::default());
     page.wait("the page on a fresh canvas", |page| match page.shown().as_str() {
         "running" => (page.eval("lost > 1 && centrode.is_drawing()") == true).then_some(()),
         "loading" => None,
@@ -187,11 +180,7 @@ const STORAGES: [(&str, &str); 4] = [
 #[test]
 fn storage_never_stops_the_page() {
     for (what, script) in STORAGES {
-        let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
-        page.before_scripts(script);
-        let address = page.eval("location.origin + location.pathname");
-        page.browse("about:blank");
-        page.go(&format!("{}?test#tour=1", address.as_str().expect("an address")));
+        let mut page = Page::visit_after(script, Renderer::WebGl, "?test#tour=1", Options::default());
         page.wait(what, |page| match page.shown().as_str() {
             "failed" => panic!("storage that is {what} stops the page: {}", page.text("#failed")),
             "running" => Some(()),

@@ -56,11 +56,7 @@ fn taken(page: &mut Page) -> (u64, Value) {
 
 #[track_caller]
 fn stays_as_large(renderer: Renderer, round: usize) {
-    let mut page = Page::visit(renderer, "?test", Options { size: SIZE, ..Options::default() });
-    page.before_scripts(COUNT);
-    let address = page.eval("location.href");
-    page.browse("about:blank");
-    page.go(address.as_str().expect("an address"));
+    let mut page = Page::visit_after(COUNT, renderer, "?test", Options { size: SIZE, ..Options::default() });
     page.wait("the page", |page| page.data("ready").filter(|ready| ready == "true"));
     rounds(&mut page, round);
     let (before, made) = taken(&mut page);

@@ -13,11 +13,8 @@ const HEARD: &str = "globalThis.asked = []; \
 
 #[test]
 fn contacts_are_placed_by_the_worker_as_the_command_places_them() {
-    let mut page = Page::visit(Renderer::WebGl, "?test", Options::default());
-    page.before_scripts(HEARD);
-    let address = page.eval("location.origin + location.pathname");
-    page.browse("about:blank");
-    page.go(&format!("{}?test#view=chain&chain=two-contacts&t=8", address.as_str().expect("an address")));
+    let query = "?test#view=chain&chain=two-contacts&t=8";
+    let mut page = Page::visit_after(HEARD, Renderer::WebGl, query, Options::default());
     page.wait("the page to run", |page| (page.shown() == "running").then_some(()));
     page.wait("both contacts and all that is known of them", |page| {
         let says = |what: &str, all: &[String]| all.iter().any(|said| said.contains(what));

@@ -99,6 +99,15 @@ impl Page {
         page
     }
 
+    /// The same with a script that runs before those of the page.
+    #[track_caller]
+    pub fn visit_after(script: &str, renderer: Renderer, query: &str, options: Options) -> Self {
+        let (mut page, address) = Self::start(renderer, options);
+        page.before_scripts(script);
+        page.go(&format!("{address}{query}"));
+        page
+    }
+
     /// Opens a document beside the page, such as `theory.html`, and waits until all of it is there.
     #[track_caller]
     pub fn read(document: &str, options: Options) -> Self {
