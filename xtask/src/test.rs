@@ -157,8 +157,9 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
 fn lint() -> Result<()> {
     tools::component("clippy", "clippy")?;
     tools::wasm_target()?;
-    // The browser tests are no default target.
-    clippy(&[&PRODUCT[..], &["--all-targets", "--test", "browser"]].concat())?;
+    clippy(&[&PRODUCT[..], &["--all-targets"]].concat())?;
+    // The browser tests are no default target, and beside all of those Cargo would not look at them.
+    clippy(&[&PRODUCT[..], &["--test", "browser"]].concat())?;
     clippy(&["--package", "xtask", "--all-targets"])?;
     clippy(&["--package", "centrode", "--lib", "--target", WASM, "--no-default-features", "--features", "app"])
 }
