@@ -2,6 +2,7 @@
 
 use crate::scenario::text::Draft;
 use crate::scenario::{ChainError, ChainScenario, Scenario, ScenarioError};
+use std::sync::OnceLock;
 
 /// A scenario with a name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,7 +92,14 @@ impl Preset {
     /// # Errors
     /// Never for the presets that are shipped; a test reads them all.
     pub fn scenario(&self) -> Result<Scenario, ScenarioError> {
-        self.draft()?.finish()
+        // Every link is read against one: its text is read once.
+        static READ: [OnceLock<Result<Scenario, ScenarioError>>; PRESETS.len()] =
+            [const { OnceLock::new() }; PRESETS.len()];
+        let read = || self.draft()?.finish();
+        match PRESETS.iter().position(|preset| preset == self) {
+            Some(place) => READ[place].get_or_init(read).clone(),
+            None => read(),
+        }
     }
 }
 

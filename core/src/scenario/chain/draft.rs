@@ -3,10 +3,11 @@
 use super::group::{Group, parsed, text, whole};
 use super::read::{inner, replace};
 use super::{ChainError, ChainScenario};
-use crate::scenario::preset::{self, CHAINS, Preset};
+use crate::scenario::preset::{CHAINS, Preset};
 use crate::scenario::refusal::ScenarioError;
 use crate::scenario::text::number;
 use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
 use toml::{Table, Value};
 
 /// The text of an experiment that can be read: [`ChainDraft::scenario`] never fails on what the functions here give. Numbers that are written
@@ -41,8 +42,11 @@ impl ChainDraft {
     /// Never with presets that come with the program, which a test reads.
     #[must_use]
     pub fn of(preset: &Preset) -> Self {
-        let known = preset::find_chain(preset.name).unwrap_or(&CHAINS[0]);
-        Self::from_bytes(known.toml.as_bytes()).expect("presets that come with the program can be read")
+        static READ: [OnceLock<ChainDraft>; CHAINS.len()] = [const { OnceLock::new() }; CHAINS.len()];
+        let place = CHAINS.iter().position(|known| known.name == preset.name).unwrap_or(0);
+        let read =
+            || Self::from_bytes(CHAINS[place].toml.as_bytes()).expect("presets that come with the program can be read");
+        READ[place].get_or_init(read).clone()
     }
 
     /// Reads TOML from bytes.
@@ -238,9 +242,10 @@ fn written(value: &Value) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::scenario::preset::find_chain;
 
     fn draft(name: &str) -> ChainDraft {
-        ChainDraft::of(preset::find_chain(name).expect("a preset"))
+        ChainDraft::of(find_chain(name).expect("a preset"))
     }
 
     #[test]

@@ -260,15 +260,13 @@ impl Page {
     /// # Errors
     /// When it does not.
     pub fn within(&self, scenario: &Scenario) -> Result<(), ScenarioError> {
+        let Some(time) = self.time else { return Ok(()) };
         let (key, end) = self.end(scenario);
-        let limit = end;
-        let end = Limit::Key(key, Some(end));
-        match self.time {
-            Some(time) if time > limit => {
-                Err(Refused::error("t", Quantity::Time, Value::Number(time), Allowed::Range(Limit::At(0.0), end)))
-            }
-            _ => Ok(()),
+        if time <= end {
+            return Ok(());
         }
+        let allowed = Allowed::Range(Limit::At(0.0), Limit::Key(key, Some(end)));
+        Err(Refused::error("t", Quantity::Time, Value::Number(time), allowed))
     }
 
     /// Sets one of its keys from a text.
