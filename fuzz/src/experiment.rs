@@ -6,21 +6,33 @@ use centrode_core::run::{CHANNELS, EXTRA, Run};
 use centrode_core::scenario::chain::{ChainDraft, ChainPlan};
 use centrode_core::scenario::keys::{Allowed, KEYS, Key, Value};
 use centrode_core::scenario::preset::CHAINS;
-use centrode_core::scenario::{Plan, Scenario};
+use centrode_core::scenario::{ContactKind, Plan, Scenario};
 use centrode_core::study::chain::ChainRun;
 use std::sync::LazyLock;
 
 /// Longer runs (samples) are run at a lower rate.
-const MOST: f64 = 120.0;
+const MOST: f64 = 60.0;
 /// Channels without which nothing is: all that comes before what detectors make of it.
 const MEASURED: usize = 19;
 
-/// One segment. The first byte says what is compared in the end.
+/// One segment. The first byte says in which way another run is compared, or that the one is looked at.
 pub fn run(bytes: &[u8]) {
     let Some((&way, rest)) = bytes.split_first() else { return };
-    let mut bytes = Bytes(rest);
-    let scenario = shortened(chosen(&mut bytes));
-    let Ok(plan) = Plan::new(&scenario) else { return };
+    let mut scenario = shortened(chosen(&mut Bytes(rest)));
+    // To follow a beam around a cylinder takes as long as thirty other runs. All bytes say where it is done, for what is rare is sought.
+    let sum = bytes.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte));
+    if scenario.contact.kind == ContactKind::Cylinder && sum % 32 > 0 {
+        scenario.contact.kind = ContactKind::Plane;
+    }
+    match way & 4 {
+        0 => relations::hold(&scenario, way),
+        _ => defined(&scenario),
+    }
+}
+
+/// Panics when something of a run is no number that is defined, or an event is none.
+fn defined(scenario: &Scenario) {
+    let Ok(plan) = Plan::new(scenario) else { return };
     let run = Run::new(plan);
     for sample in run.samples() {
         for (place, channel) in CHANNELS.iter().enumerate() {
@@ -41,7 +53,6 @@ pub fn run(bytes: &[u8]) {
             assert!((0.0..=scenario.robot.length).contains(&found.location) && !found.distance.is_nan(), "{found:?}");
         }
     }
-    relations::hold(&scenario, way);
 }
 
 /// The experiments that are shipped, with few samples.

@@ -10,7 +10,7 @@ const TURN: f64 = 0.7;
 /// Later by this, s: a whole number of the loop's and of the tracker's periods.
 const LATER: f64 = 1.0;
 /// Rates of the loop and of the tracker, Hz.
-const RATES: [f64; 2] = [20.0, 10.0];
+const RATES: [f64; 2] = [10.0, 5.0];
 /// Readings come at some of the loop's samples only: so many more until the filter holds what it can.
 const SPARE: usize = 4;
 /// Centrodes are compared where the disk turns faster than this, rad/s: below it their distance is rounding, enlarged.
@@ -50,7 +50,7 @@ fn plain(scenario: &Scenario) -> Option<Scenario> {
     }
     let samples = plain.motion.end * rate;
     plain.filter.length = plain.filter.length.clamp(2, 8);
-    (20.0..=300.0).contains(&samples).then_some(plain)
+    (10.0..=150.0).contains(&samples).then_some(plain)
 }
 
 fn later(scenario: &Scenario) -> Scenario {

@@ -50,8 +50,8 @@ fn every_target_holds_on_its_inputs_and_on_these_spoilt() {
             println!("{}", file.display());
             target(&bytes);
             if name == "run" {
-                // In all ways, of which its first byte names one.
-                (0..4).for_each(|way| target(&[&[way], bytes.get(1..).unwrap_or_default()].concat()));
+                // In all ways, of which its first byte names one, and by itself.
+                (0..8).for_each(|way| target(&[&[way], bytes.get(1..).unwrap_or_default()].concat()));
             }
             (0..4).for_each(|seed| target(&spoilt(&bytes, seed)));
         }

@@ -18,6 +18,9 @@ pub struct Options {
     /// Stop a target after so many executions, even if time is left
     #[arg(long, value_name = "N")]
     executions: Option<u64>,
+    /// Bytes of the longest input: long ones take longer
+    #[arg(long, default_value_t = 4096, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
+    longest: u32,
 }
 
 /// What came of a target.
@@ -70,7 +73,8 @@ fn fuzz(tool: &Path, name: &str, options: &Options) -> Result<Outcome> {
     let seconds = (options.minutes * 60.0).ceil();
     let mut command = fuzzer(tool, name);
     command.arg(&found).arg(root().join("fuzz/corpus").join(name)).arg("--");
-    command.args([&format!("-max_total_time={seconds}"), "-print_final_stats=1", "-timeout=60", "-max_len=4096"]);
+    command.args([&format!("-max_total_time={seconds}"), "-print_final_stats=1", "-timeout=60"]);
+    command.arg(format!("-max_len={}", options.longest));
     command.args(options.executions.map(|most| format!("-runs={most}")));
     let file = std::fs::File::create(&log)?;
     let status = command.stdout(file.try_clone()?).stderr(file).status().context("cannot run cargo-fuzz")?;
