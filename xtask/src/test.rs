@@ -49,7 +49,7 @@ enum Stage {
     Aarch64,
     /// What others use is packed and compiled as they get it, and with the oldest Rust that it states
     Package,
-    /// The page and the theory beside it are built, and no larger than they may be
+    /// The page and what lies beside it are built, no larger than they may be, and the list of their parts follows its schema
     Page,
     /// The built page in real browsers: Chromium, Firefox and WebKit
     Browser,
@@ -151,6 +151,7 @@ fn page(dev: bool, dist: &mut Option<PathBuf>) -> Result<PathBuf> {
     let built = build::build(if dev { Which::Dev } else { Which::WithSingle })?;
     theory::check(&std::fs::read_to_string(built.join(theory::NAME))?)?;
     reproduce::names_no_place(&built)?;
+    build::sbom::check(&built.join(build::sbom::NAME))?;
     Ok(dist.insert(built).clone())
 }
 

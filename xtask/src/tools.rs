@@ -72,27 +72,33 @@ pub fn has_package(name: &str) -> bool {
         .is_ok_and(|status| status.ends_with(" installed"))
 }
 
-/// The version of axe-core that looks at the page.
-const AXE: &str = "axe-core@4.10.3";
-
 /// The script of axe-core, which finds what is wrong for assistive technology; brought by npm, for tests alone.
 pub fn axe() -> Result<PathBuf> {
-    let folder = target().join("axe").join(AXE);
-    let script = folder.join("node_modules/axe-core/axe.min.js");
-    if script.is_file() {
-        return Ok(script);
-    }
-    if !succeeds(Command::new("npm").arg("--version")) {
-        install(&["npm"]).context("the browser tests look at the page with axe-core, which npm brings")?;
-    }
-    std::fs::create_dir_all(&folder)?;
-    let arguments = ["install", "--no-save", "--ignore-scripts", "--no-audit", "--no-fund", "--prefix"];
-    run(Command::new("npm").args(arguments).arg(&folder).arg(AXE))
-        .with_context(|| format!("npm could not bring {AXE}"))?;
+    let modules = npm(&["axe-core@4.10.3"]).context("the browser tests look at the page with axe-core")?;
+    let script = modules.join("axe-core/axe.min.js");
     if !script.is_file() {
-        bail!("npm brought {AXE} without {}", script.display());
+        bail!("npm brought axe-core without {}", script.display());
     }
     Ok(script)
+}
+
+/// Packages of npm at these versions, for tests alone: the folder of their modules. The first names the folder that they are kept in.
+pub fn npm(packages: &[&str]) -> Result<PathBuf> {
+    let folder = target().join("npm").join(packages[0].trim_start_matches('@').replace('/', "-"));
+    let (modules, whole) = (folder.join("node_modules"), folder.join("installed"));
+    if std::fs::read_to_string(&whole).is_ok_and(|installed| installed == packages.join(" ")) {
+        return Ok(modules);
+    }
+    if !succeeds(Command::new("npm").arg("--version")) {
+        install(&["npm"])?;
+    }
+    std::fs::create_dir_all(&folder)?;
+    let arguments =
+        ["install", "--no-save", "--ignore-scripts", "--omit=optional", "--no-audit", "--no-fund", "--prefix"];
+    run(Command::new("npm").args(arguments).arg(&folder).args(packages))
+        .with_context(|| format!("npm could not bring {}", packages.join(", ")))?;
+    std::fs::write(whole, packages.join(" "))?;
+    Ok(modules)
 }
 
 /// A software Vulkan for machines without a GPU, so that wgpu draws in the headless interface tests.

@@ -3,12 +3,14 @@
 
 use super::linked::{Name, Part};
 use crate::licence::Expression;
-use crate::run::{output, root};
+use crate::run::{output, root, run};
+use crate::tools;
 use anyhow::{Context, Result};
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 use std::process::Command;
 
 /// Its name in the page.
@@ -49,6 +51,18 @@ pub fn document(parts: &[Part]) -> Result<String> {
         "dependencies": parts.iter().map(needs).collect::<Vec<_>>(),
     });
     Ok(serde_json::to_string_pretty(&document)? + "\n")
+}
+
+/// What checks the document, by the schema that CycloneDX publishes.
+const VALIDATOR: [&str; 4] =
+    ["@cyclonedx/cyclonedx-library@6.13.1", "ajv@8.17.1", "ajv-formats@3.0.1", "ajv-formats-draft2019@1.6.1"];
+/// Whether a built document is what CycloneDX says that it must be.
+pub fn check(file: &Path) -> Result<()> {
+    let modules =
+        tools::npm(&VALIDATOR).context("the list of what the page is built from is held against its schema")?;
+    let script = root().join("xtask/src/build/sbom-check.cjs");
+    run(Command::new("node").arg(script).arg(file).env("NODE_PATH", modules))
+        .with_context(|| format!("{} is no CycloneDX", file.display()))
 }
 
 fn application(page: &Part) -> Result<Value> {
