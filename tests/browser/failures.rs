@@ -1,5 +1,6 @@
 //! Whatever goes wrong, the page stays readable and says what to do.
 
+use crate::harness::host::{Host, build_of, built};
 use crate::harness::{Area, Options, Page, Renderer};
 use crate::lost;
 use serde_json::Value;
@@ -74,10 +75,20 @@ fn a_link_with_somebody_elses_parameters_is_fine() {
 
 #[test]
 fn a_renderer_that_is_not_there_is_replaced() {
-    let mut page = Page::open(Renderer::WebGl, "?test&renderer=webgpu", Options::default());
-    assert_eq!(page.data("renderer").as_deref(), Some("webgl"));
-    let text = page.wait("a notice", notice);
-    assert!(text.contains("webgpu") && text.contains("webgl"), "{text}");
+    const NO_WEBGL: &str =
+        "HTMLCanvasElement.prototype.getContext = new Proxy(HTMLCanvasElement.prototype.getContext, {
+      apply: (get, canvas, [kind, ...how]) => (kind === 'webgl2' ? null : get.call(canvas, kind, ...how)),
+    });";
+    for (before, renderer, wanted, got) in
+        [("", Renderer::WebGl, "webgpu", "webgl"), (NO_WEBGL, Renderer::WebGpu, "webgl", "webgpu")]
+    {
+        let query = format!("?test&renderer={wanted}");
+        let mut page = Page::visit_after(before, renderer, &query, Options::default());
+        page.wait("the page to be ready", |page| (page.data("ready").as_deref() == Some("true")).then_some(()));
+        assert_eq!(page.data("renderer").as_deref(), Some(got));
+        let text = page.wait("a notice", notice);
+        assert!(text.contains(wanted) && text.contains(&format!("draws with {got} instead")), "{text}");
+    }
 }
 
 #[test]
@@ -208,6 +219,21 @@ fn a_program_that_does_not_arrive_is_told() {
         let text = wait_for(&mut page, "failed");
         assert!(text.contains(word), "{file}: {word} in {text}");
     }
+}
+
+#[test]
+fn shaders_translated_from_another_text_are_not_drawn_with() {
+    let mut files = built();
+    let name = format!("{}/shaders.js", build_of(&files));
+    let shaders = files.get_mut(&name).expect("translated shaders");
+    let text = String::from_utf8(std::mem::take(shaders)).expect("text");
+    *shaders = text.replace("\"sum\":", "\"sum\":1").into_bytes();
+    assert_ne!(shaders.len(), text.len());
+    let host = Host::of(files);
+    let mut page = Page::blank(Renderer::WebGl, Options::default());
+    page.go(&host.address);
+    let told = wait_for(&mut page, "failed");
+    assert!(told.contains("another shader of the name"), "{told}");
 }
 
 #[test]
