@@ -84,8 +84,9 @@ fn a_renderer_that_is_not_there_is_replaced() {
     {
         let query = format!("?test&renderer={wanted}");
         let mut page = Page::visit_after(before, renderer, &query, Options::default());
-        page.wait("the page to be ready", |page| (page.data("ready").as_deref() == Some("true")).then_some(()));
-        assert_eq!(page.data("renderer").as_deref(), Some(got));
+        page.wait(&format!("a page drawn with {got}"), |page| {
+            (page.data("renderer").as_deref() == Some(got)).then_some(())
+        });
         let text = page.wait("a notice", notice);
         assert!(text.contains(wanted) && text.contains(&format!("draws with {got} instead")), "{text}");
     }

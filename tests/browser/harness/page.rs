@@ -232,7 +232,8 @@ impl Page {
             }
             if start.elapsed() > PATIENCE {
                 let (shown, mirror, problems) = (self.shown(), self.mirror(), self.problems());
-                panic!("waited in vain for {what}\nshown: {shown}\nmirror: {mirror}\nconsole: {problems:#?}");
+                let far = if shown == "loading" { self.text("#loading-text") } else { String::new() };
+                panic!("waited in vain for {what}\nshown: {shown} {far}\nmirror: {mirror}\nconsole: {problems:#?}");
             }
             thread::sleep(Duration::from_millis(50));
         }

@@ -56,6 +56,7 @@ pub fn document(parts: &[Part]) -> Result<String> {
 /// What checks the document, by the schema that CycloneDX publishes.
 const VALIDATOR: [&str; 4] =
     ["@cyclonedx/cyclonedx-library@6.13.1", "ajv@8.17.1", "ajv-formats@3.0.1", "ajv-formats-draft2019@1.6.1"];
+
 /// Whether a built document is what CycloneDX says that it must be.
 pub fn check(file: &Path) -> Result<()> {
     let modules =
