@@ -1,17 +1,22 @@
 //! A static file server on this machine, for development and tests.
+//!
+//! Each connection has a thread and one answer. With a pool of threads and connections that are kept, a browser that opens several at once
+//! may wait for one that nobody listens to.
 
 use crate::build::{self, Which};
 use anyhow::{Context, Result, bail};
 use std::fs::{self, File};
-use std::io;
-use std::net::TcpListener;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::{TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
-use std::thread;
-use tiny_http::{Header, Method, Request, Response, Server};
+use std::thread::{self, JoinHandle};
+use std::time::Duration;
 
 const DEFAULT_PORT: u16 = 8080;
-const THREADS: usize = 4;
+/// Bytes of the longest request.
+const LONGEST: u64 = 64 << 10;
+/// Whoever sends or takes nothing for so long is gone.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// `cargo xtask serve`.
 pub fn command(port: Option<u16>, dev: bool, dist: Option<PathBuf>) -> Result<()> {
@@ -23,11 +28,9 @@ pub fn command(port: Option<u16>, dev: bool, dist: Option<PathBuf>) -> Result<()
         None => build::build(Which::dev(dev))?,
     };
     let address = listener.local_addr()?;
-    let threads = serve(listener, &dist, "/")?;
+    let served = serve(listener, &dist, "/");
     println!("\nCentrode is at http://{address}/ (Ctrl-C ends it)");
-    for thread in threads {
-        thread.join().ok();
-    }
+    served.join().ok();
     Ok(())
 }
 
@@ -35,7 +38,7 @@ pub fn command(port: Option<u16>, dev: bool, dist: Option<PathBuf>) -> Result<()
 pub fn background(dist: &Path, prefix: &str) -> Result<String> {
     let listener = listen(Some(0))?;
     let address = listener.local_addr()?;
-    serve(listener, dist, prefix)?;
+    serve(listener, dist, prefix);
     Ok(format!("http://{address}{prefix}"))
 }
 
@@ -51,34 +54,48 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
     }
 }
 
-fn serve(listener: TcpListener, dist: &Path, prefix: &str) -> Result<Vec<thread::JoinHandle<()>>> {
-    let server = Arc::new(Server::from_listener(listener, None).map_err(|error| anyhow::anyhow!("{error}"))?);
-    let threads = (0..THREADS).map(|_| {
-        let (server, dist, prefix) = (Arc::clone(&server), dist.to_owned(), prefix.to_owned());
-        thread::spawn(move || {
-            for request in server.incoming_requests() {
-                // A browser that went away is none of our concern.
-                answer(request, &dist, &prefix).ok();
-            }
-        })
-    });
-    Ok(threads.collect())
+fn serve(listener: TcpListener, dist: &Path, prefix: &str) -> JoinHandle<()> {
+    let (dist, prefix) = (dist.to_owned(), prefix.to_owned());
+    thread::spawn(move || {
+        for stream in listener.incoming().filter_map(Result::ok) {
+            let (dist, prefix) = (dist.clone(), prefix.clone());
+            // A browser that went away is none of our concern.
+            thread::spawn(move || answer(stream, &dist, &prefix).ok());
+        }
+    })
 }
 
-fn answer(request: Request, dist: &Path, prefix: &str) -> io::Result<()> {
-    if !matches!(request.method(), Method::Get | Method::Head) {
-        return request.respond(text("method not allowed", 405));
+fn answer(mut stream: TcpStream, dist: &Path, prefix: &str) -> io::Result<()> {
+    stream.set_read_timeout(Some(PATIENCE))?;
+    stream.set_write_timeout(Some(PATIENCE))?;
+    let mut request = BufReader::new(stream.try_clone()?.take(LONGEST)).lines();
+    let first = request.next().transpose()?.unwrap_or_default();
+    while request.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
+    let mut words = first.split(' ');
+    let method = words.next().unwrap_or_default();
+    if !["GET", "HEAD"].contains(&method) {
+        return refuse(&mut stream, "405 Method Not Allowed");
     }
-    let Some(path) = locate(dist, prefix, request.url()) else {
-        return request.respond(text("not found", 404));
-    };
-    let Ok(file) = File::open(&path) else {
-        return request.respond(text("not found", 404));
-    };
-    let mut response = Response::from_file(file).with_chunked_threshold(usize::MAX);
-    response.add_header(header("Content-Type", mime(&path)));
-    response.add_header(header("Cache-Control", "no-store"));
-    request.respond(response)
+    let opened =
+        words.next().and_then(|url| locate(dist, prefix, url)).and_then(|path| Some((File::open(&path).ok()?, path)));
+    let Some((mut file, path)) = opened else { return refuse(&mut stream, "404 Not Found") };
+    head(&mut stream, "200 OK", mime(&path), file.metadata()?.len())?;
+    if method == "GET" {
+        io::copy(&mut file, &mut stream)?;
+    }
+    Ok(())
+}
+
+fn refuse(stream: &mut TcpStream, status: &str) -> io::Result<()> {
+    head(stream, status, "text/plain; charset=utf-8", status.len() as u64)?;
+    stream.write_all(status.as_bytes())
+}
+
+fn head(stream: &mut TcpStream, status: &str, kind: &str, length: u64) -> io::Result<()> {
+    let head = format!(
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n"
+    );
+    stream.write_all(head.as_bytes())
 }
 
 /// The file that `url` means, if it lies in `dist`.
@@ -111,22 +128,12 @@ fn mime(path: &Path) -> &'static str {
     }
 }
 
-fn text(message: &str, status: u16) -> Response<io::Cursor<Vec<u8>>> {
-    Response::from_string(message).with_status_code(status)
-}
-
-fn header(name: &str, value: &str) -> Header {
-    Header::from_bytes(name, value).expect("a plain header")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io::{Read, Write};
-    use std::net::TcpStream;
 
-    fn page() -> PathBuf {
-        let dist = std::env::temp_dir().join(format!("centrode-serve-{}", std::process::id()));
+    fn page(name: &str) -> PathBuf {
+        let dist = std::env::temp_dir().join(format!("centrode-serve-{name}-{}", std::process::id()));
         fs::create_dir_all(dist.join("build")).unwrap();
         fs::write(dist.join("index.html"), "<p>page").unwrap();
         fs::write(dist.join("build/a.wasm"), [0; 70_000]).unwrap();
@@ -144,7 +151,7 @@ mod tests {
 
     #[test]
     fn serves_a_page_under_a_path_and_nothing_beside_it() {
-        let dist = page();
+        let dist = page("path");
         let address = background(&dist, "/deep/path/").unwrap();
         assert!(address.ends_with("/deep/path/"));
         let index = get(&address, "/deep/path/?renderer=webgl");
@@ -156,6 +163,43 @@ mod tests {
         for path in ["/", "/deep/path/none", "/deep/path/../x", "/deep/path//etc/passwd", "/deep/path/%2e%2e/x"] {
             assert!(get(&address, path).starts_with("HTTP/1.1 404"), "{path}");
         }
+        fs::remove_dir_all(dist).unwrap();
+    }
+
+    #[test]
+    fn connections_that_are_kept_or_say_nothing_keep_nobody_waiting() {
+        let dist = page("silent");
+        let address = background(&dist, "/").unwrap();
+        let host = address.trim_start_matches("http://").trim_end_matches('/');
+        let connected = || (0..24).map(|_| TcpStream::connect(host).unwrap()).collect::<Vec<_>>();
+        let (silent, mut asking) = (connected(), connected());
+        // As a browser does that means to keep them.
+        asking.iter_mut().for_each(|stream| write!(stream, "GET / HTTP/1.1\r\nHost: x\r\n\r\n").unwrap());
+        for stream in &mut asking {
+            stream.set_read_timeout(Some(PATIENCE)).unwrap();
+            let mut first = [0; 12];
+            stream.read_exact(&mut first).unwrap();
+            assert_eq!(&first, b"HTTP/1.1 200");
+        }
+        drop(silent);
+        fs::remove_dir_all(dist).unwrap();
+    }
+
+    #[test]
+    fn what_only_asks_for_the_head_gets_it_and_what_would_change_something_is_refused() {
+        let dist = page("head");
+        let address = background(&dist, "/").unwrap();
+        let asked = |method: &str| {
+            let mut stream = TcpStream::connect(address.trim_start_matches("http://").trim_end_matches('/')).unwrap();
+            write!(stream, "{method} /build/a.wasm HTTP/1.1\r\nHost: x\r\n\r\n").unwrap();
+            let mut answer = String::new();
+            stream.read_to_string(&mut answer).unwrap();
+            answer
+        };
+        let head = asked("HEAD");
+        assert!(head.contains("Content-Length: 70000") && head.ends_with("\r\n\r\n"), "{head}");
+        assert!(asked("POST").starts_with("HTTP/1.1 405"));
+        assert!(asked("").starts_with("HTTP/1.1 405"));
         fs::remove_dir_all(dist).unwrap();
     }
 
