@@ -6,9 +6,20 @@ function show(page) {
   document.documentElement.dataset.page = page;
 }
 
+// A start takes a second; with graphics in software, some. Graphics that never answer would keep the page starting for ever.
+const LATE_MS = 20_000;
+
+function sayThatItIsLate() {
+  const way = document.createElement("code");
+  way.textContent = "?renderer=webgl";
+  const said = "This takes longer than usual. If nothing comes, reload the page, or draw in another way: add ";
+  byId("loading-late").replaceChildren(said, way, " to its address.");
+}
+
 export function showProgress(received, total) {
   const known = total > 0 && received <= total;
   const done = known && received === total;
+  if (done) setTimeout(sayThatItIsLate, LATE_MS);
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
   byId("loading-text").textContent = done
     ? "Starting"

@@ -93,6 +93,22 @@ fn a_renderer_that_is_not_there_is_replaced() {
 }
 
 #[test]
+fn graphics_that_never_answer_are_told_while_it_starts() {
+    // Until the advice is taken, a minute passes at once.
+    let never = "if (navigator.gpu) navigator.gpu.requestAdapter = () => new Promise(() => {}); \
+         if (!location.search.includes('renderer')) { \
+           const later = setTimeout; \
+           globalThis.setTimeout = (then, time, ...rest) => later(then, time / 1000, ...rest); \
+         }";
+    let mut page = Page::visit_after(never, Renderer::Both, "?test", Options::default());
+    page.wait("words that it is late", |page| page.text("#loading-late").contains("longer than usual").then_some(()));
+    assert_eq!(page.shown(), "loading");
+    let address = page.eval("location.href + '&renderer=webgl'");
+    page.go(address.as_str().expect("an address"));
+    page.wait("the page to run", |page| (page.shown() == "running").then_some(()));
+}
+
+#[test]
 fn a_refused_device_falls_back_to_webgl() {
     let refuse =
         "if (self.GPUAdapter) GPUAdapter.prototype.requestDevice = () => Promise.reject(new Error('refused'));";
