@@ -3,23 +3,26 @@
 const byId = (id) => document.getElementById(id);
 
 function show(page) {
+  clearTimeout(late);
   document.documentElement.dataset.page = page;
 }
 
-// A start takes a second; with graphics in software, some. Graphics that never answer would keep the page starting for ever.
+// A start takes a second; with graphics in software, several. Graphics that never answer would keep the page starting for ever.
 const LATE_MS = 20_000;
+let late;
 
 function sayThatItIsLate() {
-  const way = document.createElement("code");
-  way.textContent = "?renderer=webgl";
-  const said = "This takes longer than usual. If nothing comes, reload the page, or draw in another way: add ";
-  byId("loading-late").replaceChildren(said, way, " to its address.");
+  const to = new URL(location.href);
+  to.searchParams.set("renderer", "webgl");
+  const way = document.createElement("a");
+  [way.href, way.textContent] = [to, "draw with WebGL"];
+  byId("loading-late").replaceChildren("This takes longer than usual. If nothing comes, reload the page, or ", way, ".");
 }
 
 export function showProgress(received, total) {
   const known = total > 0 && received <= total;
   const done = known && received === total;
-  if (done) setTimeout(sayThatItIsLate, LATE_MS);
+  if (done) late ??= setTimeout(sayThatItIsLate, LATE_MS);
   const megabytes = (bytes) => (bytes / 1e6).toFixed(1);
   byId("loading-text").textContent = done
     ? "Starting"

@@ -15,11 +15,11 @@ const MOST: f64 = 60.0;
 /// Channels without which nothing is: all that comes before what detectors make of it.
 const MEASURED: usize = 19;
 
-/// One segment. The first byte says in which way another run is compared, or that the one is looked at.
+/// One segment. Of the first byte, two bits say with what a run is compared, and the third that it is looked at by itself instead.
 pub fn run(bytes: &[u8]) {
     let Some((&way, rest)) = bytes.split_first() else { return };
     let mut scenario = shortened(chosen(&mut Bytes(rest)));
-    scenario.contact.kind = affordable(scenario.contact.kind, bytes);
+    scenario.contact.kind = affordable(scenario.contact.kind, rest);
     match way & 4 {
         0 => relations::hold(&scenario, way),
         _ => defined(&scenario),

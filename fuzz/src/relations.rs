@@ -49,7 +49,7 @@ fn plain(scenario: &Scenario) -> Option<Scenario> {
         plain.contact.start = Start::Time(between(time));
     }
     let samples = plain.motion.end * rate;
-    plain.filter.length = plain.filter.length.clamp(2, 8);
+    plain.filter.length = plain.filter.length.clamp(2, 4);
     (10.0..=150.0).contains(&samples).then_some(plain)
 }
 

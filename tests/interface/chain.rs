@@ -41,6 +41,9 @@ fn run(preset: &str) -> ChainRun {
 
 #[test]
 fn every_preset_is_shown_on_every_size_of_page() {
+    for size in [TABLET, PHONE, LOW] {
+        fits(&chained(size, "three-segments"), size, "opened");
+    }
     for preset in CHAINS {
         // To place the contacts takes longer than all else: it is done once.
         let mut page = chained(DESK, preset.name);

@@ -51,7 +51,7 @@ fn every_target_holds_on_its_inputs_and_on_these_spoilt() {
             target(&bytes);
             if name == "run" {
                 // In all ways, of which its first byte names one, and by itself.
-                (0..8).for_each(|way| target(&[&[way], bytes.get(1..).unwrap_or_default()].concat()));
+                (0..5).for_each(|way| target(&[&[way], bytes.get(1..).unwrap_or_default()].concat()));
             }
             (0..4).for_each(|seed| target(&spoilt(&bytes, seed)));
         }

@@ -1,13 +1,13 @@
 //! A static file server on this machine, for development and tests.
 //!
-//! Each connection has a thread and one answer. With a pool of threads and connections that are kept, a browser that opens several at once
-//! may wait for one that nobody listens to.
+//! Each connection has a thread and one answer. A browser opens several at once and keeps them: threads that are shared out among
+//! connections that are kept may all be taken, and the next one waits for nobody.
 
 use crate::build::{self, Which};
 use anyhow::{Context, Result, bail};
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, BufRead, BufReader, Read, Write};
-use std::net::{TcpListener, TcpStream};
+use std::net::{Shutdown, TcpListener, TcpStream};
 use std::path::{Component, Path, PathBuf};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
@@ -30,8 +30,7 @@ pub fn command(port: Option<u16>, dev: bool, dist: Option<PathBuf>) -> Result<()
     let address = listener.local_addr()?;
     let served = serve(listener, &dist, "/");
     println!("\nCentrode is at http://{address}/ (Ctrl-C ends it)");
-    served.join().ok();
-    Ok(())
+    served.join().map_err(|_| anyhow::anyhow!("the server stopped"))
 }
 
 /// Serves `dist` under the path `prefix` on any free port; gives the address of the page.
@@ -57,10 +56,15 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
 fn serve(listener: TcpListener, dist: &Path, prefix: &str) -> JoinHandle<()> {
     let (dist, prefix) = (dist.to_owned(), prefix.to_owned());
     thread::spawn(move || {
-        for stream in listener.incoming().filter_map(Result::ok) {
+        for stream in listener.incoming() {
             let (dist, prefix) = (dist.clone(), prefix.clone());
             // A browser that went away is none of our concern.
-            thread::spawn(move || answer(stream, &dist, &prefix).ok());
+            let served =
+                stream.and_then(|stream| thread::Builder::new().spawn(move || answer(stream, &dist, &prefix).ok()));
+            if served.is_err() {
+                // Neither a connection nor a thread is to be had: others end.
+                thread::sleep(Duration::from_millis(100));
+            }
         }
     })
 }
@@ -70,32 +74,42 @@ fn answer(mut stream: TcpStream, dist: &Path, prefix: &str) -> io::Result<()> {
     stream.set_write_timeout(Some(PATIENCE))?;
     let mut request = BufReader::new(stream.try_clone()?.take(LONGEST)).lines();
     let first = request.next().transpose()?.unwrap_or_default();
-    while request.next().transpose()?.is_some_and(|line| !line.is_empty()) {}
+    let whole = loop {
+        match request.next().transpose()? {
+            Some(line) if line.is_empty() => break true,
+            Some(_) => {}
+            None => break false,
+        }
+    };
     let mut words = first.split(' ');
     let method = words.next().unwrap_or_default();
+    let with_body = method != "HEAD";
+    let refused = |mut stream: TcpStream, status: &str| {
+        send(&mut stream, status, "text/plain; charset=utf-8", status.as_bytes(), with_body)?;
+        // Who still sends would hear of a broken connection instead of the answer.
+        stream.shutdown(Shutdown::Write)?;
+        io::copy(&mut stream.take(LONGEST), &mut io::sink()).map(drop)
+    };
+    if !whole {
+        return refused(stream, "400 Bad Request");
+    }
     if !["GET", "HEAD"].contains(&method) {
-        return refuse(&mut stream, "405 Method Not Allowed");
+        return refused(stream, "405 Method Not Allowed");
     }
-    let opened =
-        words.next().and_then(|url| locate(dist, prefix, url)).and_then(|path| Some((File::open(&path).ok()?, path)));
-    let Some((mut file, path)) = opened else { return refuse(&mut stream, "404 Not Found") };
-    head(&mut stream, "200 OK", mime(&path), file.metadata()?.len())?;
-    if method == "GET" {
-        io::copy(&mut file, &mut stream)?;
+    let path = words.next().and_then(|url| locate(dist, prefix, url));
+    match path.and_then(|path| Some((fs::read(&path).ok()?, path))) {
+        Some((bytes, path)) => send(&mut stream, "200 OK", mime(&path), &bytes, with_body),
+        None => refused(stream, "404 Not Found"),
     }
-    Ok(())
 }
 
-fn refuse(stream: &mut TcpStream, status: &str) -> io::Result<()> {
-    head(stream, status, "text/plain; charset=utf-8", status.len() as u64)?;
-    stream.write_all(status.as_bytes())
-}
-
-fn head(stream: &mut TcpStream, status: &str, kind: &str, length: u64) -> io::Result<()> {
+fn send(stream: &mut TcpStream, status: &str, kind: &str, body: &[u8], with_body: bool) -> io::Result<()> {
+    let length = body.len();
     let head = format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {length}\r\nCache-Control: no-store\r\nConnection: close\r\n\r\n"
     );
-    stream.write_all(head.as_bytes())
+    stream.write_all(head.as_bytes())?;
+    if with_body { stream.write_all(body) } else { Ok(()) }
 }
 
 /// The file that `url` means, if it lies in `dist`.
@@ -140,13 +154,19 @@ mod tests {
         dist
     }
 
-    fn get(address: &str, path: &str) -> String {
+    /// The answer to a request, without what every request has.
+    fn ask(address: &str, request: &str) -> String {
         let host = address.trim_start_matches("http://").split('/').next().unwrap();
         let mut stream = TcpStream::connect(host).unwrap();
-        write!(stream, "GET {path} HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n").unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
+        write!(stream, "{request} HTTP/1.1\r\nHost: x\r\n\r\n").unwrap();
         let mut answer = Vec::new();
         stream.read_to_end(&mut answer).unwrap();
         String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    fn get(address: &str, path: &str) -> String {
+        ask(address, &format!("GET {path}"))
     }
 
     #[test]
@@ -186,20 +206,15 @@ mod tests {
     }
 
     #[test]
-    fn what_only_asks_for_the_head_gets_it_and_what_would_change_something_is_refused() {
+    fn what_asks_for_the_head_gets_it_and_what_is_no_request_for_a_file_is_refused() {
         let dist = page("head");
         let address = background(&dist, "/").unwrap();
-        let asked = |method: &str| {
-            let mut stream = TcpStream::connect(address.trim_start_matches("http://").trim_end_matches('/')).unwrap();
-            write!(stream, "{method} /build/a.wasm HTTP/1.1\r\nHost: x\r\n\r\n").unwrap();
-            let mut answer = String::new();
-            stream.read_to_string(&mut answer).unwrap();
-            answer
-        };
-        let head = asked("HEAD");
+        let head = ask(&address, "HEAD /build/a.wasm");
         assert!(head.contains("Content-Length: 70000") && head.ends_with("\r\n\r\n"), "{head}");
-        assert!(asked("POST").starts_with("HTTP/1.1 405"));
-        assert!(asked("").starts_with("HTTP/1.1 405"));
+        assert!(ask(&address, "HEAD /none").ends_with("\r\n\r\n"));
+        assert!(ask(&address, "POST /").starts_with("HTTP/1.1 405"));
+        assert!(ask(&address, "").starts_with("HTTP/1.1 405"));
+        assert!(ask(&address, &format!("GET /{}", "a".repeat(LONGEST as usize + 100))).starts_with("HTTP/1.1 400"));
         fs::remove_dir_all(dist).unwrap();
     }
 

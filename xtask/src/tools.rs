@@ -86,7 +86,7 @@ pub fn axe() -> Result<PathBuf> {
 pub fn npm(packages: &[&str]) -> Result<PathBuf> {
     let folder = target().join("npm").join(packages[0].trim_start_matches('@').replace('/', "-"));
     let (modules, whole) = (folder.join("node_modules"), folder.join("installed"));
-    if std::fs::read_to_string(&whole).is_ok_and(|installed| installed == packages.join(" ")) {
+    if modules.is_dir() && std::fs::read_to_string(&whole).is_ok_and(|installed| installed == packages.join(" ")) {
         return Ok(modules);
     }
     if !succeeds(Command::new("npm").arg("--version")) {

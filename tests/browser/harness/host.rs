@@ -1,4 +1,5 @@
-//! A host of the page that a test holds: it serves one build, then another, or is gone.
+//! A host of the page that a test holds: it serves one build, then another, or is gone. What serves a folder to people and to most tests is
+//! `xtask/src/serve.rs`.
 
 use std::collections::BTreeMap;
 use std::io::{BufRead, BufReader, Write};
